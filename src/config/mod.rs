@@ -1,0 +1,1 @@
+//! `rungbook.toml` to each room's own options.

@@ -1,0 +1,1 @@
+//! Comments to structured prose and links.

@@ -1,0 +1,1 @@
+//! Drawings as primitives, then SVG.

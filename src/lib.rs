@@ -1,0 +1,33 @@
+//! rungbook turns a PLC source tree (IEC 61131-3) into a reference manual that proves itself.
+//!
+//! # The way of the data
+//!
+//! ```text
+//! tree of files ─ source ─▶ units ─ syntax ─▶ trees ─ library ─▶ the resolved library
+//!                                                       │
+//!                  docs (what the comments say) ◀───────┤
+//!                  table (test tables) ◀────────────────┘
+//!                         │
+//!   audit (findings) ─────┤
+//!                         ▼
+//!   figure ─▶ book (pages, addresses, search, views) ─▶ render/html · render/pdf ─▶ bytes
+//! ```
+//!
+//! It flows one way; nothing calls back. Each room's own module doc says what it is for and what
+//! it leaves to others; `tests/it/tidy.rs` holds which room may import which, and fails on an
+//! arrow that is not listed. Nothing is re-exported here, so that every edge can be seen.
+
+pub mod audit;
+pub mod book;
+pub mod cli;
+pub mod config;
+pub mod diagnostic;
+pub mod docs;
+pub mod figure;
+pub mod library;
+pub mod pipeline;
+pub mod render;
+pub mod source;
+pub mod syntax;
+pub mod table;
+pub mod text;

@@ -1,0 +1,1 @@
+//! Walks trees and unwraps vendor files; the only reader of the disk beside `cli/`.

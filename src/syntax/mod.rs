@@ -1,0 +1,1 @@
+//! Text to tree and findings, without loss; parsing never fails.

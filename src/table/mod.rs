@@ -1,0 +1,1 @@
+//! Generalized test tables: read, bound, printed.
