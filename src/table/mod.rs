@@ -1,1 +1,17 @@
-//! Generalized test tables: read, bound, printed.
+//! Generalized test tables: read, bound, printed, unrolled to automata.
+//!
+//! A table says, row by row, what the environment of a block does (its input columns, assumptions) and what the block
+//! answers (its output columns, assertions), for how long. After Weigl et al., *Generalized Test Tables* (INDIN 2017)
+//! and Beckert et al., *Generalised Test Tables* (iFM 2017).
+
+pub mod cell;
+pub mod codes;
+pub mod duration;
+pub mod layout;
+pub mod model;
+mod near;
+pub mod piece;
+pub mod read;
+
+pub use model::Table;
+pub use piece::Piece;
