@@ -82,14 +82,7 @@ pub struct Finding {
 impl Finding {
     /// A finding of `code` at `place`.
     pub fn new(code: &'static Code, place: Place, message: impl Into<String>) -> Self {
-        Self {
-            code,
-            severity: code.severity,
-            message: message.into(),
-            place,
-            labels: Vec::new(),
-            help: Vec::new(),
-        }
+        Self { code, severity: code.severity, message: message.into(), place, labels: Vec::new(), help: Vec::new() }
     }
 
     /// A finding about `file` as a whole.
