@@ -14,4 +14,4 @@ pub use decode::{Decoded, Encoding};
 pub use files::{FileId, Files, SourceFile};
 pub use line_index::{LineColumn, LineIndex};
 pub use span::{Place, Span};
-pub use unit::{Body, Fragment, Language, Object, ObjectKind, SpanMap, Unit, Vendor};
+pub use unit::{Body, Fragment, Language, Object, ObjectKind, Run, SpanMap, Unit, Vendor};

@@ -167,39 +167,70 @@ impl Fragment {
     }
 }
 
-/// From offsets in a fragment to offsets in its file: runs that stand there verbatim.
+/// One run of a [`SpanMap`]: from offset `from` of the fragment up to the next run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Run {
+    /// Where the run begins in the fragment.
+    pub from: u32,
+    /// Where it stands in the file.
+    pub to: u32,
+    /// `None` where the run stands in the file byte for byte; otherwise the length of what it stands for
+    /// there: an entity, an attribute, the element that a synthesised declaration was made from.
+    pub stands_for: Option<u32>,
+}
+
+impl Run {
+    /// A run that stands in the file byte for byte, from `to` on.
+    #[must_use]
+    pub const fn verbatim(from: u32, to: u32) -> Self {
+        Self { from, to, stands_for: None }
+    }
+
+    /// A run that stands for `span` of the file as a whole.
+    #[must_use]
+    pub const fn standing_for(from: u32, span: Span) -> Self {
+        Self { from, to: span.start, stands_for: Some(span.len()) }
+    }
+}
+
+/// From offsets in a fragment to offsets in its file, by runs that ascend.
 ///
-/// Each run is `(offset in the fragment, offset in the file)`, ascending in the first. Between runs
-/// the container may have had text of its own (an entity, the seam of a split CDATA section).
+/// Between verbatim runs the container may have had text of its own (the seam of a split CDATA
+/// section); a run that is not verbatim maps as a whole (see [`Run::stands_for`]).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpanMap {
-    runs: Vec<(u32, u32)>,
+    runs: Vec<Run>,
 }
 
 impl SpanMap {
     /// One run: the fragment stands in the file as it is, from `start` on.
     #[must_use]
     pub fn verbatim(start: u32) -> Self {
-        Self { runs: vec![(0, start)] }
+        Self { runs: vec![Run::verbatim(0, start)] }
     }
 
-    /// Runs of `(offset in the fragment, offset in the file)`; they are sorted here.
+    /// The map of `runs`, which are sorted here.
     #[must_use]
-    pub fn new(mut runs: Vec<(u32, u32)>) -> Self {
+    pub fn new(mut runs: Vec<Run>) -> Self {
         runs.sort_unstable();
-        if runs.first().is_none_or(|run| run.0 != 0) {
-            let start = runs.first().map_or(0, |run| run.1);
-            runs.insert(0, (0, start));
+        if runs.first().is_none_or(|run| run.from != 0) {
+            let start = runs.first().map_or(0, |run| run.to);
+            runs.insert(0, Run::standing_for(0, Span::at(start)));
         }
         Self { runs }
+    }
+
+    /// The runs, in ascending order.
+    #[must_use]
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
     }
 
     /// The file's offset for the fragment's `offset`.
     #[must_use]
     pub fn offset(&self, offset: u32) -> u32 {
-        let after = self.runs.partition_point(|run| run.0 <= offset);
-        let (from, to) = self.runs[after.saturating_sub(1)];
-        to + (offset - from)
+        let run = self.run(offset);
+        if run.stands_for.is_some() { run.to } else { run.to + (offset - run.from) }
     }
 
     /// The file's span for the fragment's `span`.
@@ -208,7 +239,17 @@ impl SpanMap {
         if span.is_empty() {
             return Span::at(self.offset(span.start));
         }
-        Span::new(self.offset(span.start), self.offset(span.end - 1) + 1)
+        let last = self.run(span.end - 1);
+        let end = match last.stands_for {
+            Some(len) => last.to + len,
+            None => last.to + (span.end - last.from),
+        };
+        Span::new(self.offset(span.start), end)
+    }
+
+    fn run(&self, offset: u32) -> Run {
+        let after = self.runs.partition_point(|run| run.from <= offset);
+        self.runs[after.saturating_sub(1)]
     }
 }
 
@@ -218,10 +259,19 @@ mod tests {
 
     #[test]
     fn a_seam_in_the_middle_is_stepped_over() {
-        let map = SpanMap::new(vec![(0, 100), (10, 150)]);
+        let map = SpanMap::new(vec![Run::verbatim(0, 100), Run::verbatim(10, 150)]);
         assert_eq!(map.span(Span::new(2, 5)), Span::new(102, 105));
         assert_eq!(map.span(Span::new(8, 12)), Span::new(108, 152));
         assert_eq!(map.span(Span::new(5, 10)), Span::new(105, 110));
         assert_eq!(map.span(Span::at(10)), Span::at(150));
+    }
+
+    #[test]
+    fn a_synthesised_run_maps_to_what_it_stands_for() {
+        let runs = vec![Run::standing_for(0, Span::new(40, 60)), Run::verbatim(15, 70)];
+        let map = SpanMap::new(runs);
+        assert_eq!(map.span(Span::new(3, 9)), Span::new(40, 60));
+        assert_eq!(map.span(Span::new(15, 18)), Span::new(70, 73));
+        assert_eq!(map.span(Span::new(4, 16)), Span::new(40, 71));
     }
 }
