@@ -1,0 +1,179 @@
+//! A test table as values: column groups, and brackets as cells that span the rows of their block.
+
+use tera::Value;
+
+use super::prose::Prose;
+use super::value::{list, markup, record, strings};
+use crate::book::view::table::{BracketView, CellView, ColumnView, RowView, TableView};
+
+/// The table for its template. `line_href` leads to the listing that shows it, if one does.
+pub(super) fn value(table: &TableView, prose: &Prose<'_>, line_href: Option<String>) -> Value {
+    let lanes = lanes(&table.brackets, table.rows.len());
+    record! {
+        name: table.name.as_str(),
+        anchor: table.anchor.as_str(),
+        file: table.file.as_str(),
+        line: table.line,
+        line_href: line_href,
+        verdict: record! {
+            key: table.verdict.key,
+            label: table.verdict.label.as_str(),
+            note: table.verdict.note.as_str(),
+        },
+        facts: list(&table.facts, |(name, value)| record! { name: name.as_str(), value: value.as_str() }),
+        remark: markup(&prose.inlines(&table.remark)),
+        groups: groups(&table.columns),
+        columns: columns(&table.columns),
+        lanes: lanes.len(),
+        rows: rows(table, &lanes, prose),
+        has_remarks: table.rows.iter().any(|row| !row.remark.is_empty()),
+        has_sentences: table.rows.iter().any(|row| !row.sentence.is_empty()),
+        errors: strings(&table.errors),
+    }
+}
+
+/// Runs of columns with the same group: title and width.
+fn groups(columns: &[ColumnView]) -> Value {
+    let groups: Vec<Value> = columns
+        .chunk_by(|a, b| a.group == b.group)
+        .map(|run| {
+            let key = run.first().map_or("", |column| column.group);
+            record! { key: key, title: if key == "output" { "Output" } else { "Input" }, span: run.len() }
+        })
+        .collect();
+    Value::from(groups)
+}
+
+/// Whether column `i` begins a group; a line is drawn there.
+fn begins_group(columns: &[ColumnView], i: usize) -> bool {
+    i == 0 || columns.get(i).map(|c| c.group) != columns.get(i - 1).map(|c| c.group)
+}
+
+fn columns(columns: &[ColumnView]) -> Value {
+    let column = |(i, column): (usize, &ColumnView)| {
+        record! {
+            group: column.group,
+            name: column.name.as_str(),
+            type: column.type_.as_str(),
+            state: column.state,
+            edge: begins_group(columns, i),
+        }
+    };
+    Value::from(columns.iter().enumerate().map(column).collect::<Vec<_>>())
+}
+
+fn rows(table: &TableView, lanes: &[Lane<'_>], prose: &Prose<'_>) -> Value {
+    let row = |(i, row): (usize, &RowView)| {
+        record! {
+            seq: row.seq.as_str(),
+            cells: cells(row, &table.columns),
+            duration: row.duration.as_str(),
+            duration_meaning: row.duration_meaning.as_str(),
+            remark: markup(&prose.inlines(&row.remark)),
+            sentence: row.sentence.as_str(),
+            brackets: Value::from(lanes.iter().filter_map(|lane| bracket_cell(lane, i)).collect::<Vec<_>>()),
+        }
+    };
+    Value::from(table.rows.iter().enumerate().map(row).collect::<Vec<_>>())
+}
+
+/// One cell for each column, even where the row has fewer.
+fn cells(row: &RowView, columns: &[ColumnView]) -> Value {
+    let cell = |(i, column): (usize, &ColumnView)| match row.cells.get(i) {
+        Some(cell) => filled(cell, column, begins_group(columns, i)),
+        None => record! { edge: begins_group(columns, i), group: column.group, text: "", effective: "", same: false,
+        any: false, meaning: "", error: Value::none() },
+    };
+    Value::from(columns.iter().enumerate().map(cell).collect::<Vec<_>>())
+}
+
+fn filled(cell: &CellView, column: &ColumnView, edge: bool) -> Value {
+    record! {
+        edge: edge,
+        group: column.group,
+        text: cell.text.as_str(),
+        effective: cell.effective.as_str(),
+        same: cell.same,
+        any: cell.any,
+        meaning: cell.meaning.as_str(),
+        error: cell.error.as_deref(),
+    }
+}
+
+/// A column of brackets that do not overlap.
+type Lane<'a> = Vec<&'a BracketView>;
+
+/// Brackets in lanes, the innermost first, which stands nearest to the rows. Each takes the lane of its depth; one that
+/// would overlap there moves outwards. Brackets beyond the rows are left out.
+fn lanes(brackets: &[BracketView], rows: usize) -> Vec<Lane<'_>> {
+    let mut sorted: Vec<&BracketView> = brackets.iter().filter(|b| b.first <= b.last && b.last < rows).collect();
+    sorted.sort_by_key(|b| (std::cmp::Reverse(b.depth), b.first));
+    let deepest = sorted.first().map_or(0, |b| b.depth);
+    let mut lanes: Vec<Lane<'_>> = Vec::new();
+    for bracket in sorted {
+        let mut lane = (deepest - bracket.depth).min(u32::try_from(brackets.len()).unwrap_or(u32::MAX)) as usize;
+        while lanes.get(lane).is_some_and(|lane| lane.iter().any(|b| overlap(b, bracket))) {
+            lane += 1;
+        }
+        if lanes.len() <= lane {
+            lanes.resize_with(lane + 1, Vec::new);
+        }
+        lanes[lane].push(bracket);
+    }
+    lanes.retain(|lane| !lane.is_empty());
+    lanes
+}
+
+fn overlap(a: &BracketView, b: &BracketView) -> bool {
+    a.first <= b.last && b.first <= a.last
+}
+
+/// The cell of `lane` in row `row`; none where a bracket from above reaches it.
+fn bracket_cell(lane: &Lane<'_>, row: usize) -> Option<Value> {
+    match lane.iter().find(|b| (b.first..=b.last).contains(&row)) {
+        Some(bracket) if bracket.first == row => {
+            Some(record! { rows: bracket.last - bracket.first + 1, label: bracket.label.as_str() })
+        }
+        Some(_) => None,
+        None => Some(record! { rows: 0, label: "" }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bracket(depth: u32, first: usize, last: usize) -> BracketView {
+        BracketView { depth, first, last, label: String::new() }
+    }
+
+    /// First rows by lane.
+    fn firsts(brackets: &[BracketView], rows: usize) -> Vec<Vec<usize>> {
+        lanes(brackets, rows).iter().map(|lane| lane.iter().map(|b| b.first).collect()).collect()
+    }
+
+    #[test]
+    fn the_innermost_lane_comes_first() {
+        let brackets = [bracket(0, 0, 5), bracket(1, 1, 2), bracket(1, 3, 4)];
+        assert_eq!(firsts(&brackets, 6), [vec![1, 3], vec![0]]);
+    }
+
+    #[test]
+    fn overlapping_brackets_get_lanes_of_their_own() {
+        assert_eq!(firsts(&[bracket(0, 0, 3), bracket(0, 2, 5)], 6), [vec![0], vec![2]]);
+    }
+
+    #[test]
+    fn brackets_beyond_the_rows_are_left_out() {
+        assert!(firsts(&[bracket(0, 4, 9), bracket(0, 3, 1), bracket(u32::MAX, 6, 6)], 6).is_empty());
+        assert_eq!(firsts(&[bracket(u32::MAX, 0, 0), bracket(0, 1, 1)], 2), [vec![0], vec![1]]);
+    }
+
+    #[test]
+    fn every_row_has_one_cell_a_lane_or_is_spanned() {
+        let brackets = [bracket(0, 1, 2)];
+        let lanes = lanes(&brackets, 4);
+        let cells: Vec<bool> = (0..4).map(|row| bracket_cell(&lanes[0], row).is_some()).collect();
+        assert_eq!(cells, [true, true, false, true]);
+    }
+}

@@ -1,0 +1,218 @@
+// What a page does beyond being read: theme, menu, the tree of libraries, filters, unfolding what a link points at.
+(function () {
+  "use strict";
+  var body = document.body;
+  var root = body.dataset.root;
+  var path = body.dataset.path;
+
+  function element(name, attributes, text) {
+    var node = document.createElement(name);
+    for (var key in attributes || {}) node.setAttribute(key, attributes[key]);
+    if (text !== undefined) node.textContent = text;
+    return node;
+  }
+
+  // --- Theme ---------------------------------------------------------------------------------------------------
+
+  function isDark() {
+    var theme = document.documentElement.dataset.theme;
+    if (theme) return theme === "dark";
+    return window.matchMedia("(prefers-color-scheme: dark)").matches;
+  }
+
+  function setUpTheme() {
+    var button = document.querySelector("button.theme");
+    if (!button) return;
+    function label() {
+      button.setAttribute("aria-label", isDark() ? "Use the light theme" : "Use the dark theme");
+    }
+    button.addEventListener("click", function () {
+      var theme = isDark() ? "light" : "dark";
+      document.documentElement.dataset.theme = theme;
+      try {
+        localStorage.setItem("rungbook-theme", theme);
+      } catch (e) {
+        // Not remembered, then.
+      }
+      label();
+    });
+    label();
+    button.hidden = false;
+  }
+
+  // --- The menu of narrow screens ------------------------------------------------------------------------------
+
+  function setUpMenu() {
+    var menu = document.querySelector("a.menu");
+    var sidebar = document.getElementById("sidebar");
+    if (!menu || !sidebar) return;
+    menu.setAttribute("role", "button");
+    menu.setAttribute("aria-controls", "sidebar");
+    function show(open) {
+      body.classList.toggle("menu-open", open);
+      menu.setAttribute("aria-expanded", String(open));
+    }
+    show(false);
+    menu.addEventListener("click", function (event) {
+      event.preventDefault();
+      show(!body.classList.contains("menu-open"));
+    });
+    menu.addEventListener("keydown", function (event) {
+      if (event.key === " ") {
+        event.preventDefault();
+        menu.click();
+      }
+    });
+    document.addEventListener("keydown", function (event) {
+      if (event.key === "Escape" && body.classList.contains("menu-open")) {
+        show(false);
+        menu.focus();
+      }
+    });
+    document.getElementById("content").addEventListener("click", function () {
+      show(false);
+    });
+  }
+
+  // --- The tree of libraries -----------------------------------------------------------------------------------
+
+  // Folders by path: {name, url, entities, folders}.
+  function treeOf(folders) {
+    var top = { url: null, entities: [], folders: new Map() };
+    folders.forEach(function (folder) {
+      var node = top;
+      folder[0].forEach(function (part) {
+        if (!node.folders.has(part)) node.folders.set(part, { url: null, entities: [], folders: new Map() });
+        node = node.folders.get(part);
+      });
+      node.url = folder[1];
+      node.entities = folder[2];
+    });
+    return top;
+  }
+
+  function holdsPage(node) {
+    if (node.url === path) return true;
+    for (var i = 0; i < node.entities.length; i++) if (node.entities[i][1] === path) return true;
+    var inner = false;
+    node.folders.forEach(function (folder) {
+      inner = inner || holdsPage(folder);
+    });
+    return inner;
+  }
+
+  function link(name, url, short) {
+    var a = element("a", { href: root + url });
+    if (short) a.appendChild(element("span", { class: "chip chip-" + short.toLowerCase() }, short));
+    a.appendChild(document.createTextNode(name));
+    if (url === path) a.setAttribute("aria-current", "page");
+    return a;
+  }
+
+  // A folder's content is made when it is first opened: a large tree costs nothing until then.
+  function branch(name, url, node) {
+    var item = element("li");
+    var details = element("details");
+    var summary = element("summary");
+    summary.appendChild(url ? link(name, url) : document.createTextNode(name));
+    details.appendChild(summary);
+    var made = false;
+    function make() {
+      if (made) return;
+      made = true;
+      details.appendChild(content(node));
+    }
+    details.addEventListener("toggle", make);
+    if (holdsPage(node) || url === path) {
+      make();
+      details.open = true;
+    }
+    item.appendChild(details);
+    return item;
+  }
+
+  function content(node) {
+    var list = element("ul");
+    node.folders.forEach(function (folder, name) {
+      list.appendChild(branch(name, folder.url, folder));
+    });
+    node.entities.forEach(function (entity) {
+      var item = element("li", { class: "leaf" });
+      item.appendChild(link(entity[0], entity[1], entity[2]));
+      list.appendChild(item);
+    });
+    return list;
+  }
+
+  function setUpTree() {
+    var place = document.getElementById("nav-tree");
+    var libraries = window.RUNGBOOK_NAV;
+    if (!place || !libraries) return;
+    var tree = element("ul", { class: "tree" });
+    libraries.forEach(function (library) {
+      tree.appendChild(branch(library[0], library[1], treeOf(library[2])));
+    });
+    place.replaceChildren(element("p", { class: "nav-title" }, "Libraries"), tree);
+    var current = place.querySelector("[aria-current]");
+    var sidebar = document.getElementById("sidebar");
+    if (current && sidebar) {
+      var offset = current.getBoundingClientRect().top - sidebar.getBoundingClientRect().top;
+      if (offset > sidebar.clientHeight * 0.7) sidebar.scrollTop = offset - sidebar.clientHeight / 3;
+    }
+  }
+
+  // --- Filters -------------------------------------------------------------------------------------------------
+
+  function setUpFilter() {
+    var box = document.querySelector(".filter");
+    if (!box) return;
+    var rows = Array.from(document.querySelectorAll("[data-filterable] tbody tr, [data-row]"));
+    var groups = Array.from(document.querySelectorAll("[data-group]"));
+    var texts = null;
+    var input = box.querySelector("input");
+    var output = box.querySelector("output");
+    input.addEventListener("input", function () {
+      texts = texts || rows.map(function (row) { return row.textContent.toLowerCase(); });
+      var words = input.value.toLowerCase().split(/\s+/).filter(Boolean);
+      var shown = 0;
+      rows.forEach(function (row, i) {
+        var fits = words.every(function (word) { return texts[i].indexOf(word) >= 0; });
+        row.hidden = !fits;
+        if (fits) shown++;
+      });
+      groups.forEach(function (group) {
+        group.hidden = !group.querySelector("[data-row]:not([hidden])");
+      });
+      output.textContent = words.length ? shown + " of " + rows.length : "";
+    });
+    box.hidden = false;
+  }
+
+  // --- What a link points at must not stay folded --------------------------------------------------------------
+
+  function unfold() {
+    var id;
+    try {
+      id = decodeURIComponent(location.hash.slice(1));
+    } catch (e) {
+      return;
+    }
+    var target = id && document.getElementById(id);
+    if (!target) return;
+    var folded = false;
+    for (var node = target.parentElement; node; node = node.parentElement) {
+      if (node.tagName === "DETAILS" && !node.open) {
+        node.open = true;
+        folded = true;
+      }
+    }
+    if (folded) target.scrollIntoView();
+  }
+
+  setUpTheme();
+  setUpMenu();
+  setUpTree();
+  setUpFilter();
+  unfold();
+  window.addEventListener("hashchange", unfold);
+})();
