@@ -1,3 +1,7 @@
 //! Parses arguments and hands over to `cli`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    rungbook::cli::run(std::env::args_os())
+}

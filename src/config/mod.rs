@@ -1,1 +1,12 @@
 //! `rungbook.toml` to each room's own options.
+//!
+//! [`file::ConfigFile`] is what was typed; [`Settings`] is what it means, with the defaults filled
+//! in. Nobody below this room imports it.
+
+pub mod file;
+pub mod settings;
+pub mod template;
+
+pub use file::ConfigFile;
+pub use settings::{Levels, Settings};
+pub use template::TEMPLATE;

@@ -45,6 +45,25 @@ pub struct Code {
     pub page: &'static str,
 }
 
+impl Code {
+    /// The page as Markdown: [`Code::page`], or its `//!` lines where that is the text of a Rust file.
+    #[must_use]
+    pub fn text(&self) -> String {
+        if !self.page.starts_with("//!") {
+            return self.page.to_owned();
+        }
+        let lines = self.page.lines().map_while(|line| line.strip_prefix("//!"));
+        lines.flat_map(|line| [line.strip_prefix(' ').unwrap_or(line), "\n"]).collect()
+    }
+
+    /// The title of its page.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let text = self.text();
+        text.lines().next().unwrap_or("").trim_start_matches('#').trim().to_owned()
+    }
+}
+
 impl PartialEq for Code {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name

@@ -2,10 +2,18 @@
 //!
 //! The [`Catalogue`] keeps where a comment stands, not what it means; `docs/` reads it.
 
+pub mod elementary;
 pub mod item;
+pub mod listing;
+pub mod lower;
+pub mod names;
+pub mod relations;
+pub mod resolve;
+pub mod type_use;
 
 use std::sync::Arc;
 
+use crate::syntax::Tree;
 use crate::text::{FileId, Fragment, Place, Span};
 
 pub use item::{
@@ -39,6 +47,8 @@ pub struct Source {
     pub file: FileId,
     /// Text and way back.
     pub fragment: Fragment,
+    /// Its tree, where it was parsed.
+    pub tree: Option<Arc<Tree>>,
 }
 
 /// Everything that a tree declares.

@@ -1,1 +1,164 @@
-//! The only place where stages meet.
+//! The only place where stages meet: tree → catalogue → docs and tables → findings → book → bytes.
+//!
+//! Progress goes out as [`Event`]s; date, commit and tool come in as one [`Stamp`].
+
+mod libraries;
+mod overrides;
+mod read;
+mod tables;
+
+use std::collections::BTreeMap;
+
+use crate::book::view::{Book, Front};
+use crate::book::{self, Narrative};
+use crate::config::Settings;
+use crate::diagnostic::Finding;
+use crate::docs::Docs;
+use crate::library::Catalogue;
+use crate::library::names::Names;
+use crate::library::relations::Relations;
+use crate::render::html;
+use crate::table::AttachedTable;
+use crate::text::Files;
+
+pub use read::read;
+
+/// How far a run has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// A stage begins.
+    Stage {
+        /// Its name.
+        name: &'static str,
+        /// How many steps it has; 0 if that is not known.
+        total: usize,
+    },
+    /// So many more steps of the stage are done.
+    Advance(usize),
+    /// The run is over.
+    Done,
+}
+
+/// Takes events.
+pub type Events<'a> = dyn Fn(Event) + Sync + 'a;
+
+/// What the world outside of the tree says: nothing else in a manual depends on when and by whom it is made.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Stamp {
+    /// `2026-11-22`.
+    pub date: String,
+    /// The commit, shortened, with `+` if there are changes on top; empty if unknown.
+    pub commit: String,
+    /// The tool and its version.
+    pub tool: String,
+}
+
+/// A source tree, read and understood.
+#[derive(Debug)]
+pub struct Project {
+    /// The name of the tree's folder.
+    pub name: String,
+    /// The files.
+    pub files: Files,
+    /// How many of them were read as source.
+    pub source_files: usize,
+    /// What they declare.
+    pub catalogue: Catalogue,
+    /// What names mean.
+    pub names: Names,
+    /// Who extends, implements and uses whom.
+    pub relations: Relations,
+    /// What the comments say.
+    pub docs: Docs,
+    /// The test tables.
+    pub tables: Vec<AttachedTable>,
+    /// The findings of all rooms, with their configured severities, by file and place.
+    pub findings: Vec<Finding>,
+    /// Files whose kind is read, and that were not: path and reason.
+    pub skipped: Vec<(String, String)>,
+    /// How many files are no PLC source.
+    pub other_files: usize,
+    /// The narrative pages.
+    pub narratives: Vec<Narrative>,
+    /// The user's templates and theme files, by name.
+    pub overrides: BTreeMap<String, String>,
+}
+
+/// The manual of `project`.
+#[must_use]
+pub fn book(project: &Project, settings: &Settings, stamp: &Stamp) -> Book {
+    let single = match project.catalogue.libraries.as_slice() {
+        [library] => Some(library),
+        _ => None,
+    };
+    let known = |text: Option<&String>| text.filter(|text| !text.is_empty()).cloned();
+    let title = settings.title.clone().or_else(|| known(single.map(|library| &library.name)));
+    let version = settings.version.clone().or_else(|| known(single.map(|library| &library.version)));
+    let author = settings.author.clone().or_else(|| known(single.map(|library| &library.author)));
+    let front = Front {
+        title: title.unwrap_or_else(|| project.name.clone()),
+        subtitle: settings.subtitle.clone(),
+        version: version.unwrap_or_default(),
+        date: stamp.date.clone(),
+        commit: stamp.commit.clone(),
+        author: author.unwrap_or_default(),
+        tool: stamp.tool.clone(),
+        language: settings.language.clone(),
+    };
+    book::build(&book::Input {
+        front,
+        files: &project.files,
+        source_files: project.source_files,
+        other_files: project.other_files,
+        catalogue: &project.catalogue,
+        names: &project.names,
+        relations: &project.relations,
+        docs: &project.docs,
+        tables: &project.tables,
+        findings: &project.findings,
+        skipped: &project.skipped,
+        narratives: &project.narratives,
+    })
+}
+
+/// The site.
+///
+/// # Errors
+/// If a template of the user's cannot be used.
+pub fn html(project: &Project, book: &Book, events: &Events<'_>) -> Result<Vec<html::Page>, html::Error> {
+    events(Event::Stage { name: "pages", total: html::steps(book) });
+    let options = html::Options { overrides: project.overrides.clone() };
+    html::render(book, &options, &|n| events(Event::Advance(n)))
+}
+
+/// The PDF.
+///
+/// # Errors
+/// If typst refuses the document, or this tool was built without it.
+#[cfg(feature = "pdf")]
+pub fn pdf(project: &Project, book: &Book, settings: &Settings, events: &Events<'_>) -> Result<Vec<u8>, String> {
+    use crate::render::pdf;
+    events(Event::Stage { name: "PDF", total: 0 });
+    let options = pdf::Options {
+        overrides: project.overrides.clone(),
+        paper: settings.paper.clone(),
+        source: settings.pdf_source,
+        ..pdf::Options::default()
+    };
+    pdf::render(book, &options).map(|document| document.bytes).map_err(|error| error.to_string())
+}
+
+/// The PDF.
+///
+/// # Errors
+/// Always: this tool was built without it.
+#[cfg(not(feature = "pdf"))]
+pub fn pdf(_: &Project, _: &Book, _: &Settings, _: &Events<'_>) -> Result<Vec<u8>, String> {
+    Err("this rungbook was built without the feature `pdf`".to_owned())
+}
+
+/// The model as JSON.
+#[must_use]
+pub fn model(book: &Book) -> String {
+    book::model::render(book)
+}

@@ -45,6 +45,14 @@ pub static TABLE_OLD_SPELLING: Code =
 pub static TABLE_UNSUPPORTED: Code =
     Code { name: "table-unsupported", severity: Severity::Warning, page: include_str!("pages/table-unsupported.md") };
 
+/// A table whose block nothing names.
+pub static UNATTACHED_TABLE: Code =
+    Code { name: "unattached-table", severity: Severity::Warning, page: include_str!("pages/unattached-table.md") };
+
+/// A `@gtt` path that leads to no table.
+pub static MISSING_TABLE_FILE: Code =
+    Code { name: "missing-table-file", severity: Severity::Warning, page: include_str!("pages/missing-table-file.md") };
+
 /// All codes of the room.
 pub static ALL: &[&Code] = &[
     &TABLE_SYNTAX,
@@ -57,4 +65,6 @@ pub static ALL: &[&Code] = &[
     &TABLE_BLOCK,
     &TABLE_OLD_SPELLING,
     &TABLE_UNSUPPORTED,
+    &UNATTACHED_TABLE,
+    &MISSING_TABLE_FILE,
 ];

@@ -4,6 +4,7 @@
 //! answers (its output columns, assertions), for how long. After Weigl et al., *Generalized Test Tables* (INDIN 2017)
 //! and Beckert et al., *Generalised Test Tables* (iFM 2017).
 
+pub mod attach;
 pub mod cell;
 pub mod codes;
 pub mod duration;
@@ -13,5 +14,6 @@ mod near;
 pub mod piece;
 pub mod read;
 
+pub use attach::{AttachedTable, TableError};
 pub use model::Table;
 pub use piece::Piece;

@@ -44,7 +44,7 @@ impl<'a> Piece<'a> {
     /// Another text made from this one, where `runs` pairs offsets of `text` with offsets of this piece.
     #[must_use]
     pub fn rewritten<'b>(&self, text: &'b str, runs: &[(u32, u32)]) -> Piece<'b> {
-        let runs = runs.iter().map(|(from, to)| (*from, self.map.offset(self.base + to))).collect();
+        let runs: Vec<(u32, u32)> = runs.iter().map(|(from, to)| (*from, self.map.offset(self.base + to))).collect();
         Piece { file: self.file, text, base: 0, map: Cow::Owned(SpanMap::new(runs)) }
     }
 

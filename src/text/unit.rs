@@ -193,6 +193,13 @@ impl Run {
     }
 }
 
+impl From<(u32, u32)> for Run {
+    /// A verbatim run: from the fragment's offset, to the file's.
+    fn from((from, to): (u32, u32)) -> Self {
+        Self::verbatim(from, to)
+    }
+}
+
 /// From offsets in a fragment to offsets in its file, by runs that ascend.
 ///
 /// Between verbatim runs the container may have had text of its own (the seam of a split CDATA
@@ -211,7 +218,8 @@ impl SpanMap {
 
     /// The map of `runs`, which are sorted here.
     #[must_use]
-    pub fn new(mut runs: Vec<Run>) -> Self {
+    pub fn new(runs: Vec<impl Into<Run>>) -> Self {
+        let mut runs: Vec<Run> = runs.into_iter().map(Into::into).collect();
         runs.sort_unstable();
         if runs.first().is_none_or(|run| run.from != 0) {
             let start = runs.first().map_or(0, |run| run.to);

@@ -1,0 +1,10 @@
+//! The rules. Each file opens with the page that `rungbook explain` prints.
+
+pub mod block_without_table;
+pub mod broken_link;
+pub mod missing_brief;
+pub mod placeholder_documentation;
+pub mod undocumented;
+pub mod undocumented_member;
+pub mod unknown_parameter;
+pub mod unverified_table;

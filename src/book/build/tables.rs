@@ -1,0 +1,138 @@
+//! Test tables as pages see them.
+
+use super::address::slug;
+use super::{Context, prose};
+use crate::book::view::prose::{Block, Inline};
+use crate::book::view::table::{BracketView, CellView, ColumnView, RowView, TableView, VerdictView};
+use crate::library::ItemId;
+use crate::table::layout::{self, DurationText, Layout, Role};
+use crate::table::model::ColumnKind;
+use crate::table::{AttachedTable, Table};
+
+/// The tables of a top-level item and of its members.
+pub(crate) fn of(context: &Context<'_>, top: ItemId) -> Vec<TableView> {
+    let own = context.tables.get(&top).into_iter().flatten();
+    own.enumerate().map(|(n, i)| view(context, top, &context.input.tables[*i], n)).collect()
+}
+
+/// What is known of a table.
+pub(crate) fn verdict(table: &AttachedTable) -> VerdictView {
+    if table.table.has_errors() {
+        let note = "The table has errors; it gets no verdict.";
+        return VerdictView { key: "error", label: "error".to_owned(), note: note.to_owned() };
+    }
+    let note = "Nobody has proven that the block conforms to this table.";
+    VerdictView { key: "unverified", label: "unverified".to_owned(), note: note.to_owned() }
+}
+
+fn view(context: &Context<'_>, top: ItemId, attached: &AttachedTable, n: usize) -> TableView {
+    let table = &attached.table;
+    let layout = layout::layout(table);
+    let at = context.input.files.line_column(table.place);
+    let anchor = format!("t{}-{}", n + 1, slug(&table.name));
+    TableView {
+        name: table.name.clone(),
+        label: format!("{}::{anchor}", context.addresses.item(top).label),
+        anchor,
+        file: context.input.files.get(table.place.file).path.clone(),
+        line: at.line,
+        verdict: verdict(attached),
+        facts: facts(table, &layout),
+        remark: Vec::new(),
+        columns: columns(&layout),
+        rows: rows(context, attached, &layout),
+        brackets: brackets(&layout),
+        errors: attached.errors.iter().map(|error| error.message.clone()).collect(),
+    }
+}
+
+fn facts(table: &Table, layout: &Layout) -> Vec<(String, String)> {
+    let mut facts = Vec::new();
+    if let Some(cycle) = &table.options.cycle {
+        facts.push(("Cycle time".to_owned(), crate::table::cell::time_text(cycle.nanos)));
+    }
+    if table.options.strict {
+        facts.push(("Conformance".to_owned(), "strict".to_owned()));
+    }
+    facts.extend(layout.constants.iter().cloned());
+    facts.extend(layout.globals.iter().map(|(name, constraint)| (format!("for every {name}"), constraint.clone())));
+    facts
+}
+
+fn columns(layout: &Layout) -> Vec<ColumnView> {
+    let column = |head: &layout::Head| ColumnView {
+        group: if head.kind.is_assumption() { "input" } else { "output" },
+        name: head.bound_to.clone().unwrap_or_else(|| head.name.clone()),
+        type_: head.ty.clone().unwrap_or_default(),
+        state: matches!(head.kind, ColumnKind::StateAssumption | ColumnKind::StateAssertion),
+    };
+    layout.columns.iter().map(column).collect()
+}
+
+fn rows(context: &Context<'_>, attached: &AttachedTable, layout: &Layout) -> Vec<RowView> {
+    let own = attached.table.rows();
+    let row = |(i, line): (usize, &layout::Line)| RowView {
+        seq: line.id.clone(),
+        cells: line
+            .cells
+            .iter()
+            .enumerate()
+            .map(|(column, cell)| {
+                let index = layout.columns[column].index;
+                let written = own.get(i).and_then(|row| row.cells.get(index)).and_then(Option::as_ref);
+                let inside = |error: &&crate::table::TableError| {
+                    written.is_some_and(|cell| {
+                        cell.place.file == error.place.file && cell.place.span.contains(error.place.span)
+                    })
+                };
+                let error = attached.errors.iter().find(inside).map(|error| error.message.clone());
+                self::cell(cell, &layout.columns[column].name, error)
+            })
+            .collect(),
+        duration: duration(&line.duration),
+        duration_meaning: String::new(),
+        remark: remark(context, &line.remark),
+        sentence: String::new(),
+    };
+    layout.rows.iter().enumerate().map(row).collect()
+}
+
+fn remark(context: &Context<'_>, text: &str) -> Vec<Inline> {
+    match prose::markdown(context, text).into_iter().next() {
+        Some(Block::Paragraph { content }) => content,
+        Some(_) => vec![Inline::text(text)],
+        None => Vec::new(),
+    }
+}
+
+fn cell(cell: &layout::LaidCell, column: &str, error: Option<String>) -> CellView {
+    let same = cell.rows == 0;
+    let meaning = match cell.role {
+        Role::Any => "anything".to_owned(),
+        Role::Value => format!("{column} = {}", cell.text),
+        Role::Condition => format!("{column}: {}", cell.text),
+        Role::Spoiled => String::new(),
+    };
+    CellView {
+        text: if same { String::new() } else { cell.text.clone() },
+        effective: cell.text.clone(),
+        same,
+        any: cell.role == Role::Any,
+        meaning,
+        error,
+    }
+}
+
+fn duration(duration: &DurationText) -> String {
+    if duration.progress { format!("{} p", duration.text) } else { duration.text.clone() }
+}
+
+fn brackets(layout: &Layout) -> Vec<BracketView> {
+    let bracket = |bracket: &layout::Bracket| BracketView {
+        depth: u32::try_from(bracket.depth).unwrap_or(u32::MAX),
+        first: bracket.first,
+        last: bracket.last,
+        label: duration(&bracket.label),
+    };
+    layout.brackets.iter().map(bracket).collect()
+}

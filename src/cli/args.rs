@@ -1,0 +1,135 @@
+//! What was typed on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Exit codes, at the end of `--help`.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done; for `check`: nothing at or above the denied severity
+  1  `check` found something at or above the denied severity
+  2  unusable input, configuration or arguments
+
+Start with:
+  rungbook build                  the manual of this folder, in target/rungbook
+  rungbook check --deny error     what is wrong, for a pipeline
+  rungbook explain undocumented   what a finding means and how to mend it
+
+Colours are used on a terminal only, and never where NO_COLOR is set.
+SOURCE_DATE_EPOCH sets the date that the manual shows.";
+
+/// A reference manual from a PLC source tree (IEC 61131-3), with its test tables and what is not documented.
+#[derive(Debug, Parser)]
+#[command(name = "rungbook", version, after_help = EXIT_CODES, max_term_width = 100)]
+pub(crate) struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Write the manual of a source tree: a static site, a PDF, a model as JSON
+    Build(BuildArgs),
+    /// Print what is undocumented, unverified or unreadable, and fail if it is bad enough
+    Check(CheckArgs),
+    /// Explain a finding's code, or which comment documents an entity and why
+    Explain(ExplainArgs),
+    /// Write a commented rungbook.toml
+    Init(InitArgs),
+    /// Print the JSON Schema of `build --json`
+    Schema,
+    /// Print the completions of a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page, for `man -l -`
+    Man,
+}
+
+/// The tree and its configuration.
+#[derive(Debug, Args)]
+pub(crate) struct TreeArgs {
+    /// Folder to read
+    #[arg(default_value = ".", value_name = "DIR")]
+    pub(crate) dir: PathBuf,
+    /// Configuration file [default: DIR/rungbook.toml, if there is one]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) config: Option<PathBuf>,
+    /// No progress and no summary on stderr
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// `rungbook build`.
+#[derive(Debug, Args)]
+pub(crate) struct BuildArgs {
+    #[command(flatten)]
+    pub(crate) tree: TreeArgs,
+    /// Folder to write to [default: DIR/target/rungbook]
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+    /// Write the site, OUT/html
+    #[arg(long)]
+    pub(crate) html: bool,
+    /// Write the PDF, OUT/manual.pdf
+    #[arg(long)]
+    pub(crate) pdf: bool,
+    /// Write the model, OUT/model.json (its schema: `rungbook schema`)
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `rungbook check`.
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    pub(crate) tree: TreeArgs,
+    /// Fail from this severity on [default: warning, or as configured]
+    #[arg(long, value_enum, value_name = "SEVERITY")]
+    pub(crate) deny: Option<Level>,
+    /// How to print
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+}
+
+/// `rungbook explain`.
+#[derive(Debug, Args)]
+pub(crate) struct ExplainArgs {
+    /// A finding's code, or an entity's name; without it, the list of codes
+    pub(crate) what: Option<String>,
+    /// Folder to look for an entity in
+    #[arg(default_value = ".", value_name = "DIR")]
+    pub(crate) dir: PathBuf,
+}
+
+/// `rungbook init`.
+#[derive(Debug, Args)]
+pub(crate) struct InitArgs {
+    /// Folder to write to
+    #[arg(default_value = ".", value_name = "DIR")]
+    pub(crate) dir: PathBuf,
+}
+
+/// A severity.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Level {
+    /// Everything
+    Info,
+    /// Warnings and errors
+    Warning,
+    /// Errors only
+    Error,
+}
+
+/// How findings are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// For people
+    Text,
+    /// One JSON object
+    Json,
+}

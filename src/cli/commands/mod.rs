@@ -1,0 +1,7 @@
+//! The commands, one a file.
+
+pub(crate) mod build;
+pub(crate) mod check;
+pub(crate) mod explain;
+pub(crate) mod init;
+pub(crate) mod print;

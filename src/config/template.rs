@@ -1,0 +1,36 @@
+//! The commented `rungbook.toml` that `rungbook init` writes.
+
+/// Every key, commented out, with its default.
+pub const TEMPLATE: &str = r#"# rungbook.toml: how the manual of this tree is made.
+# Every key is optional; what is commented out shows the default.
+
+# title = "…"            # the project's title, or the folder's name
+# subtitle = ""
+# version = "…"          # the project's version
+# author = "…"           # the project's company or author
+# language = "en"        # BCP 47 tag of the prose
+
+[source]
+# exclude = []           # globs of files to leave out: ["**/Tests/**", "*.bak.st"]
+# include = []           # globs of files to read; empty: all that rungbook reads
+# max-file-size = 134217728   # bytes; a larger file is reported and left out
+
+[docs]
+# profile = "auto"       # the comment convention: auto, or one of those in the manual
+# manual = "manual"      # folder of narrative pages (*.md), below the root
+
+[audit]
+# deny = "warning"       # `rungbook check` fails from this severity on: info, warning, error
+
+[audit.rules]            # severity of a finding by its code: off, info, warning, error
+# block-without-table = "off"
+# undocumented-member = "warning"
+
+[html]
+# enabled = true
+
+[pdf]
+# enabled = true
+# paper = "a4"           # a4, us-letter, …
+# source = false         # show the source in the PDF, too
+"#;

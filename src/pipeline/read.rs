@@ -1,0 +1,85 @@
+//! From a file system to a [`Project`].
+
+use super::{Event, Events, Project, libraries, overrides, tables};
+use crate::audit::{self, Context};
+use crate::config::Settings;
+use crate::diagnostic::Finding;
+use crate::docs;
+use crate::library::relations::Relations;
+use crate::library::{lower, resolve};
+use crate::source::{FileSystem, Progress, Tree, read_tree};
+
+/// Reads the tree below `fs`, whose folder is called `name`.
+pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Events<'_>) -> Project {
+    let mut tree = walk(fs, settings, events);
+    events(Event::Stage { name: "parsing", total: tree.units.len() });
+    let libraries = libraries::of(&tree, name);
+    let units: Vec<_> = tree.units.iter().zip(libraries.of_unit.iter().copied()).collect();
+    let lowered = lower::units(&units, libraries.list, &tree.files, &|n| events(Event::Advance(n)));
+    let (mut catalogue, mut findings) = (lowered.catalogue, lowered.findings);
+    let names = resolve::resolve(&mut catalogue);
+    let relations = Relations::new(&catalogue);
+
+    events(Event::Stage { name: "comments", total: 0 });
+    let docs = docs::read(&catalogue, &settings.docs);
+    let tables = tables::attach(&tree, &catalogue, &names, &docs);
+    findings.append(&mut tree.findings);
+    findings.extend(tables.findings);
+
+    events(Event::Stage { name: "audit", total: 0 });
+    let context = Context { catalogue: &catalogue, docs: &docs, tables: &tables.tables };
+    findings.extend(audit::check(&context, |code, default| settings.levels.runs(code, default)));
+    let findings = in_order(findings, settings);
+
+    let (skipped, other_files) = skipped(&tree);
+    Project {
+        name: name.to_owned(),
+        source_files: tree.units.len(),
+        files: tree.files,
+        catalogue,
+        names,
+        relations,
+        docs,
+        tables: tables.tables,
+        findings,
+        skipped,
+        other_files,
+        narratives: overrides::narratives(fs, &settings.manual),
+        overrides: overrides::read(fs),
+    }
+}
+
+fn walk(fs: &dyn FileSystem, settings: &Settings, events: &Events<'_>) -> Tree {
+    events(Event::Stage { name: "reading", total: 0 });
+    let first = std::sync::Once::new();
+    read_tree(fs, &settings.source, &|progress| match progress {
+        Progress::Walked(_) => {}
+        Progress::Read { total } => {
+            first.call_once(|| events(Event::Stage { name: "reading", total }));
+            events(Event::Advance(1));
+        }
+    })
+}
+
+/// With their configured severities, by file and place; equal ones once.
+fn in_order(findings: Vec<Finding>, settings: &Settings) -> Vec<Finding> {
+    let mut findings: Vec<Finding> =
+        findings.into_iter().filter_map(|finding| settings.levels.apply(finding)).collect();
+    findings.sort_by(|a, b| {
+        (a.place.file, a.place.span, a.code.name, &a.message).cmp(&(
+            b.place.file,
+            b.place.span,
+            b.code.name,
+            &b.message,
+        ))
+    });
+    findings.dedup();
+    findings
+}
+
+/// The files that a manual should hold and does not, and the number of those that it need not.
+fn skipped(tree: &Tree) -> (Vec<(String, String)>, usize) {
+    let (ours, other): (Vec<_>, Vec<_>) = tree.skipped.iter().partition(|skipped| skipped.code.is_some());
+    let ours = ours.into_iter().map(|skipped| (skipped.path.clone(), skipped.reason.to_string())).collect();
+    (ours, other.len())
+}
