@@ -1,7 +1,13 @@
 //! Integration tests, one module a room.
 
+mod cli;
+mod corpora;
 mod html;
+mod model;
 mod pdf;
+mod rules;
 mod source;
+mod support;
 mod syntax;
 mod table;
+mod tidy;

@@ -1,0 +1,10 @@
+//! One suite for each rule: what it finds, where, and what it lets pass.
+
+mod block_without_table;
+mod broken_link;
+mod missing_brief;
+mod placeholder_documentation;
+mod undocumented;
+mod undocumented_member;
+mod unknown_parameter;
+mod unverified_table;

@@ -1,0 +1,41 @@
+//! Trees in memory, and what the tool says of them.
+
+use rungbook::book::view::Book;
+use rungbook::config::{ConfigFile, Settings};
+use rungbook::pipeline::{self, Project, Stamp};
+use rungbook::source::Memory;
+
+/// A tree of files, read with the configuration `config`.
+pub(crate) fn project(files: &[(&str, &str)], config: &str) -> Project {
+    let fs = files.iter().fold(Memory::new(), |fs, (path, text)| fs.with(path, text));
+    let settings = settings(config);
+    pipeline::read(&fs, "tree", &settings, &|_| {})
+}
+
+/// Settings from the text of a `rungbook.toml`.
+pub(crate) fn settings(config: &str) -> Settings {
+    Settings::new(ConfigFile::parse(config).expect("a configuration of ours")).expect("a configuration of ours")
+}
+
+/// The book of a tree, with a stamp that never changes.
+pub(crate) fn book(project: &Project) -> Book {
+    let stamp = Stamp { date: "2026-01-31".to_owned(), commit: "0123abc".to_owned(), tool: "rungbook test".to_owned() };
+    pipeline::book(project, &settings(""), &stamp)
+}
+
+/// The findings of `code` in a tree: `file:line:column message`.
+pub(crate) fn findings(code: &str, files: &[(&str, &str)], config: &str) -> Vec<String> {
+    let project = project(files, config);
+    let own = project.findings.iter().filter(|finding| finding.code.name == code);
+    own.map(|finding| {
+        let at = project.files.line_column(finding.place);
+        let file = &project.files.get(finding.place.file).path;
+        format!("{file}:{}:{} {}", at.line, at.column, finding.message)
+    })
+    .collect()
+}
+
+/// The findings of `code` in one plain text.
+pub(crate) fn in_text(code: &str, text: &str) -> Vec<String> {
+    findings(code, &[("a.st", text)], "")
+}
