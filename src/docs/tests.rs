@@ -1,0 +1,7 @@
+//! Tests of the room as a whole, on catalogues made by hand.
+
+mod conventions;
+mod links;
+mod placement;
+mod properties;
+mod sample;
