@@ -1,1 +1,4 @@
 //! Book to bytes.
+
+#[cfg(feature = "pdf")]
+pub mod pdf;
