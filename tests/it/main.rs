@@ -4,6 +4,7 @@ mod cli;
 mod corpora;
 mod html;
 mod model;
+#[cfg(feature = "pdf")]
 mod pdf;
 mod rules;
 mod source;

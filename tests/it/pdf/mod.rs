@@ -1,0 +1,4 @@
+//! Tests of the PDF.
+
+mod fixture;
+mod scratch;
