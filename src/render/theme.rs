@@ -26,7 +26,10 @@ pub static EMBEDDED: &[(&str, &str)] = &[
     ("themes/rungbook.js", include_str!("../../themes/rungbook.js")),
     ("themes/search.js", include_str!("../../themes/search.js")),
     ("themes/style.css", include_str!("../../themes/style.css")),
-    ("themes/syntax/structured-text.sublime-syntax", include_str!("../../themes/syntax/structured-text.sublime-syntax")),
+    (
+        "themes/syntax/structured-text.sublime-syntax",
+        include_str!("../../themes/syntax/structured-text.sublime-syntax"),
+    ),
 ];
 
 /// The files that a renderer works with.

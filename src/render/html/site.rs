@@ -126,12 +126,12 @@ impl<'a> Site<'a> {
         let theme = Theme::new(options.overrides.clone());
         let highlighter = Highlighter::new(theme.text(Highlighter::file()).unwrap_or_default())?;
         let tera = templates(&theme, book)?;
-        let folders = (0..).zip(&book.libraries).flat_map(|(l, library)| {
-            library.folders.iter().map(move |folder| ((l, folder.path.as_slice()), folder))
-        });
-        let findings = (0..).zip(&book.entities).flat_map(|(e, entity)| {
-            entity.findings.iter().map(move |finding| (finding_key(finding), e))
-        });
+        let folders = (0..)
+            .zip(&book.libraries)
+            .flat_map(|(l, library)| library.folders.iter().map(move |folder| ((l, folder.path.as_slice()), folder)));
+        let findings = (0..)
+            .zip(&book.entities)
+            .flat_map(|(e, entity)| entity.findings.iter().map(move |finding| (finding_key(finding), e)));
         Ok(Self {
             book,
             highlighter,
