@@ -63,6 +63,25 @@ impl Place {
     }
 }
 
+impl Place {
+    /// A drawing's `<svg>`, its links led from this page: they come as addresses below the root.
+    ///
+    /// A drawing with links is a group for those who cannot see it: an image must hold nothing that takes the focus.
+    pub(super) fn drawing(&self, svg: &str) -> String {
+        const LINK: &str = "<a href=\"";
+        let mut pieces = svg.split(LINK);
+        let mut out = pieces.next().unwrap_or_default().to_owned();
+        for piece in pieces {
+            out.push_str(LINK);
+            if !piece.starts_with('#') && !escape::is_external(piece) {
+                out.push_str(&self.root);
+            }
+            out.push_str(piece);
+        }
+        if svg.contains(LINK) { out.replacen("role=\"img\"", "role=\"group\"", 1) } else { out }
+    }
+}
+
 /// Appends a link to `href` around `inner`, which is markup.
 pub(super) fn push_link(out: &mut String, href: &str, inner: &str) {
     out.push_str("<a href=\"");
@@ -80,6 +99,14 @@ mod tests {
     fn addresses_are_relative_to_the_page() {
         assert_eq!(Place::of("index.html").href("a/b.html#c"), "./a/b.html#c");
         assert_eq!(Place::of("a/b/c.html#x/y").href("d.html"), "../../d.html");
+    }
+
+    #[test]
+    fn links_in_drawings_are_relative_to_the_page() {
+        let svg = "<svg role=\"img\"><a href=\"x/y.html#z\"><a href=\"#here\"></svg>";
+        let expected = "<svg role=\"group\"><a href=\"../x/y.html#z\"><a href=\"#here\"></svg>";
+        assert_eq!(Place::of("a/b.html").drawing(svg), expected);
+        assert_eq!(Place::of("a.html").drawing("<svg role=\"img\"></svg>"), "<svg role=\"img\"></svg>");
     }
 
     #[test]

@@ -31,7 +31,7 @@ impl Writer<'_> {
         context.insert_value("namespace", Value::from(entity.namespace.join(".")));
         context.insert_value("folder", Value::from(entity.folder.join("/")));
         context.insert_value("relations", list(&entity.relations, |r| self.relation(r)));
-        context.insert_value("inheritance", diagram(entity.inheritance.as_ref()));
+        context.insert_value("inheritance", self.diagram(entity.inheritance.as_ref()));
         context.insert_value("groups", self.member_groups());
         context.insert_value("inherited", list(&entity.inherited, |i| self.inherited(i)));
         context.insert_value("tables", list(&entity.tables, |t| self.table(t)));
@@ -75,7 +75,7 @@ impl Writer<'_> {
             documentation_from: core.documentation_from.as_ref().map(|link| self.place.link(link)),
             signature: markup(&self.site.highlighter.highlight(core.signature.trim_end(), &links)),
             signature_lines: core.signature.trim_end().lines().count(),
-            diagram: diagram(core.diagram.as_ref()),
+            diagram: self.diagram(core.diagram.as_ref()),
             type_label: core.type_label,
             type: self.place.type_(&core.type_),
             returns: markup(&self.prose.inlines(&core.returns)),
@@ -106,6 +106,13 @@ impl Writer<'_> {
 
     fn line_href(&self, file: &str, line: u32) -> Option<String> {
         listing::find_line(&self.entity.sources, file, line).map(|anchor| format!("#{anchor}"))
+    }
+
+    fn diagram(&self, diagram: Option<&Diagram>) -> Value {
+        Value::from(diagram.map(|d| {
+            let svg = self.place.drawing(&d.svg);
+            record! { svg: markup(&svg), alt: d.alt.as_str(), width: d.width, height: d.height }
+        }))
     }
 
     fn fact(&self, fact: &Fact, top: u8) -> Value {
@@ -209,10 +216,6 @@ impl Writer<'_> {
     fn finding(&self, finding: &crate::book::view::finding::FindingView) -> Value {
         self.site.finding(finding, self.place, self.line_href(&finding.file, finding.line), None)
     }
-}
-
-fn diagram(diagram: Option<&Diagram>) -> Value {
-    Value::from(diagram.map(|d| record! { svg: markup(&d.svg), alt: d.alt.as_str(), width: d.width, height: d.height }))
 }
 
 fn member_title(kind: &str) -> &'static str {

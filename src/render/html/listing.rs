@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn wrong_runs_lose_colour_and_not_text() {
         let bad = [(3, 2, RunClass::Name, None), (0, 1, RunClass::Name, Some(7)), (5, 900, RunClass::Type, None)];
-        assert_eq!(shown(&source("äbcdef", &bad)), "9|äbc[type:def]");
+        assert_eq!(shown(&source("äbcdef", &bad)), "9|äbcd[type:ef]");
     }
 
     #[test]
