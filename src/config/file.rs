@@ -84,8 +84,12 @@ pub struct HtmlSection {
 pub struct PdfSection {
     /// Whether `build` writes it.
     pub enabled: Option<bool>,
-    /// Paper size as typst names it.
+    /// Paper size: `a4`, `b5` or `us-letter`.
     pub paper: Option<String>,
+    /// Standard: `pdf-1.7`, `pdf-a-3b`, …
+    pub standard: Option<String>,
+    /// Whether it carries its structure for screen readers.
+    pub tagged: Option<bool>,
     /// Whether it shows the source.
     pub source: Option<bool>,
 }

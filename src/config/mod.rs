@@ -4,6 +4,8 @@
 //! in. Nobody below this room imports it.
 
 pub mod file;
+#[cfg(feature = "pdf")]
+mod pdf;
 pub mod settings;
 pub mod template;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::file::{ConfigError, ConfigFile, SourceSection};
+use super::file::{ConfigError, ConfigFile, PdfSection, SourceSection};
 use crate::audit;
 use crate::diagnostic::{Finding, Severity};
 use crate::docs::Convention;
@@ -34,10 +34,8 @@ pub struct Settings {
     pub html: bool,
     /// Whether `build` writes the PDF.
     pub pdf: bool,
-    /// Paper size.
-    pub paper: String,
-    /// Whether the PDF shows the source.
-    pub pdf_source: bool,
+    /// How the PDF is made.
+    pdf_section: PdfSection,
 }
 
 /// Severities by code: what the configuration changes.
@@ -83,13 +81,25 @@ impl Settings {
             deny,
             html: file.html.enabled.unwrap_or(true),
             pdf: file.pdf.enabled.unwrap_or(true),
-            paper: file.pdf.paper.unwrap_or_else(|| "a4".to_owned()),
-            pdf_source: file.pdf.source.unwrap_or(false),
+            pdf_section: file.pdf,
         })
     }
 }
 
 impl Settings {
+    /// The options of the PDF, with the user's templates and the manual's date (`2026-11-22`).
+    ///
+    /// # Errors
+    /// If a value under `[pdf]` is none that its key takes.
+    #[cfg(feature = "pdf")]
+    pub fn pdf_options(
+        &self,
+        templates: BTreeMap<String, String>,
+        date: &str,
+    ) -> Result<crate::render::pdf::Options, ConfigError> {
+        super::pdf::options(&self.pdf_section, templates, date)
+    }
+
     /// Leaves the folder `path`, seen from the root, unread: the manual is written there.
     pub fn leave_out(&mut self, path: &str) {
         self.source.output = Some(path.replace('\\', "/"));

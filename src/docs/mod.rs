@@ -23,6 +23,7 @@ mod links;
 mod mapped;
 mod markdown;
 pub mod model;
+mod narrative;
 pub mod options;
 mod placement;
 mod read;
@@ -32,6 +33,7 @@ pub use model::{
     Align, Block, Considered, Convention, Docs, Documentation, Entry, Fact, Inline, LinkTarget, ListItem, ParamTag,
     Reason, TableText, Tag, Tags, Verdict,
 };
+pub use narrative::Narrator;
 pub use options::Options;
 pub use read::read;
 

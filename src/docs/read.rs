@@ -42,7 +42,7 @@ struct Context<'a> {
 
 fn read_item(catalogue: &Catalogue, index: &Index<'_>, id: ItemId, options: &Options) -> (Entry, Vec<Entry>) {
     let item = catalogue.item(id);
-    let context = Context { catalogue, reader: Reader { index, scope: id }, options };
+    let context = Context { catalogue, reader: Reader { index, scope: Some(id) }, options };
     let mut candidates = context.candidates(&item.comments, &item.name);
     choose_for_item(&mut candidates, item.kind, options);
     let entry = context.entry(candidates, &item.name, &item.pragmas);

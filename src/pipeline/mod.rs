@@ -139,12 +139,7 @@ pub fn html(project: &Project, book: &Book, events: &Events<'_>) -> Result<Vec<h
 pub fn pdf(project: &Project, book: &Book, settings: &Settings, events: &Events<'_>) -> Result<Vec<u8>, String> {
     use crate::render::pdf;
     events(Event::Stage { name: "PDF", total: 0 });
-    let options = pdf::Options {
-        overrides: project.overrides.clone(),
-        paper: settings.paper.clone(),
-        source: settings.pdf_source,
-        ..pdf::Options::default()
-    };
+    let options = settings.pdf_options(project.overrides.clone(), &book.front.date).map_err(|error| error.message)?;
     pdf::render(book, &options).map(|document| document.bytes).map_err(|error| error.to_string())
 }
 

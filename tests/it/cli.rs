@@ -111,7 +111,8 @@ fn init_writes_a_configuration_once() {
 #[test]
 fn build_writes_site_and_model_and_a_summary() {
     let out = TempDir::new().expect("a folder");
-    let run = rungbook().args(["build", "--html", "--json", "-o"]).arg(out.path()).arg(sample("basics")).assert().code(0);
+    let run =
+        rungbook().args(["build", "--html", "--json", "-o"]).arg(out.path()).arg(sample("basics")).assert().code(0);
     let summary = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
     for word in ["entities", "documented", "undocumented", "tables", "unverified", "files"] {
         assert!(summary.contains(word), "{word} is missing in:\n{summary}");
@@ -126,7 +127,12 @@ fn build_writes_site_and_model_and_a_summary() {
 fn the_same_input_gives_the_same_bytes() {
     let build = || {
         let out = TempDir::new().expect("a folder");
-        rungbook().args(["build", "-q", "--html", "--json", "-o"]).arg(out.path()).arg(sample("pick-and-place")).assert().code(0);
+        rungbook()
+            .args(["build", "-q", "--html", "--json", "-o"])
+            .arg(out.path())
+            .arg(sample("pick-and-place"))
+            .assert()
+            .code(0);
         let mut files = Vec::new();
         collect(out.path(), out.path(), &mut files);
         files

@@ -78,7 +78,9 @@ fn headers(text: &str) -> Vec<(&'static str, String)> {
     for line in bare(text).lines() {
         let words: Vec<&str> = line.split_whitespace().collect();
         let Some(first) = words.first() else { continue };
-        let Some((keyword, _)) = KEYWORDS.iter().find(|(keyword, _)| keyword.eq_ignore_ascii_case(first)) else { continue };
+        let Some((keyword, _)) = KEYWORDS.iter().find(|(keyword, _)| keyword.eq_ignore_ascii_case(first)) else {
+            continue;
+        };
         let name = words[1..].iter().find(|word| !MODIFIERS.contains(&word.to_uppercase().as_str()));
         let Some(name) = name else { continue };
         let name = name.trim_matches('"');
@@ -95,7 +97,8 @@ fn declarations(path: &str, text: &str) -> Vec<String> {
     let extension = path.rsplit('.').next().unwrap_or("").to_lowercase();
     match extension.as_str() {
         "tcpou" | "tcio" | "tcdut" | "tcgvl" => {
-            let parts = text.split("<Declaration>").skip(1).map(|part| part.split("</Declaration>").next().unwrap_or(""));
+            let parts =
+                text.split("<Declaration>").skip(1).map(|part| part.split("</Declaration>").next().unwrap_or(""));
             parts.map(|part| part.replace("<![CDATA[", "").replace("]]>", "")).collect()
         }
         "st" | "iecst" => vec![text.to_owned()],

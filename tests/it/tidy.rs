@@ -24,10 +24,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("book", &["library", "docs", "table", "audit", "figure"]),
     ("render", &["book", "figure"]),
     ("config", &["source", "docs", "audit", "table", "render"]),
-    (
-        "pipeline",
-        &["source", "syntax", "library", "docs", "table", "audit", "figure", "book", "render", "config"],
-    ),
+    ("pipeline", &["source", "syntax", "library", "docs", "table", "audit", "figure", "book", "render", "config"]),
     ("cli", &["pipeline", "config", "audit", "book", "render", "source", "table", "docs", "library"]),
 ];
 

@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use super::view::entity::EntityView;
 use super::view::{Book, Front, Totals};
 use crate::diagnostic::{Finding, Severity};
-use crate::docs::Docs;
+use crate::docs::{Docs, Narrator};
 use crate::library::names::Names;
 use crate::library::relations::Relations;
 use crate::library::{Catalogue, ItemId, ItemKind};
@@ -75,6 +75,7 @@ pub(crate) struct Context<'a> {
     tables: BTreeMap<ItemId, Vec<usize>>,
     findings: BTreeMap<FileId, Vec<usize>>,
     narratives: BTreeMap<String, String>,
+    narrator: Narrator<'a>,
 }
 
 impl<'a> Context<'a> {
@@ -90,7 +91,14 @@ impl<'a> Context<'a> {
             findings.entry(finding.place.file).or_default().push(i);
         }
         let addresses = Addresses::new(input.catalogue);
-        Self { input, addresses, tables, findings, narratives: narrative::addresses(input.narratives) }
+        Self {
+            input,
+            addresses,
+            tables,
+            findings,
+            narratives: narrative::addresses(input.narratives),
+            narrator: Narrator::new(input.catalogue),
+        }
     }
 
     pub(crate) fn catalogue(&self) -> &'a Catalogue {

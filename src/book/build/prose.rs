@@ -17,7 +17,7 @@ pub(crate) fn inlines(context: &Context<'_>, inlines: &[docs::Inline]) -> Vec<In
 
 /// Prose that stands in no comment, such as a project's description, as paragraphs.
 pub(crate) fn markdown(context: &Context<'_>, text: &str) -> Vec<Block> {
-    blocks(context, &docs::narrative(context.input.catalogue, text))
+    blocks(context, &context.narrator.blocks(text))
 }
 
 fn block(context: &Context<'_>, block: &docs::Block) -> Block {

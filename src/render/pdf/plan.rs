@@ -54,7 +54,8 @@ pub(super) fn section(view: &SectionView, space: Space) -> (Value, Limits) {
     let initial = column(longest(|variable| variable.initial.chars().count()), 48.0, 86.0);
     let address = column(longest(|variable| variable.address.chars().count()), 48.0, 70.0);
     let used = [name, type_, initial, address].into_iter().flatten().sum::<f64>();
-    let limits = Limits { name: fitting(name, CODE), type_: fitting(type_, CODE), value: fitting(initial.or(address), CODE) };
+    let limits =
+        Limits { name: fitting(name, CODE), type_: fitting(type_, CODE), value: fitting(initial.or(address), CODE) };
     let rest = (space.portrait - used).max(90.0);
     (json!({ "name": name, "type": type_, "initial": initial, "address": address, "brief": rest }), limits)
 }
@@ -87,11 +88,13 @@ pub(super) fn fit(variable: &mut Value, limits: Limits) {
         match (key.as_str(), value) {
             ("name", Value::String(text)) => *text = soften(text, limits.name),
             ("initial" | "address", Value::String(text)) => *text = soften(text, limits.value),
-            ("type_", Value::Array(parts)) => parts.iter_mut().filter_map(|part| part.get_mut("text")).for_each(|text| {
-                if let Value::String(text) = text {
-                    *text = soften(text, limits.type_);
-                }
-            }),
+            ("type_", Value::Array(parts)) => {
+                parts.iter_mut().filter_map(|part| part.get_mut("text")).for_each(|text| {
+                    if let Value::String(text) = text {
+                        *text = soften(text, limits.type_);
+                    }
+                })
+            }
             _ => {}
         }
     }
@@ -115,7 +118,8 @@ fn break_word(out: &mut String, word: &str, limit: usize) {
     let mut before = ' ';
     let mut since = 0;
     for character in word.chars() {
-        let natural = matches!(before, '_' | '.' | '/' | '-' | ',' | ':') || before.is_lowercase() && character.is_uppercase();
+        let natural =
+            matches!(before, '_' | '.' | '/' | '-' | ',' | ':') || before.is_lowercase() && character.is_uppercase();
         if since >= limit || (natural && since >= 3) {
             out.push('\u{200b}');
             since = 0;
@@ -198,7 +202,9 @@ impl Frame {
         let longest = |index: usize| {
             let cells = view.rows.iter().filter_map(|row| row.cells.get(index)).map(|cell| cell.text.as_str());
             let column = view.columns.get(index);
-            let texts = cells.chain(column.map(|column| column.name.as_str())).chain(column.map(|column| column.type_.as_str()));
+            let texts = cells
+                .chain(column.map(|column| column.name.as_str()))
+                .chain(column.map(|column| column.type_.as_str()));
             texts.map(needed).max().unwrap_or(1).max(2)
         };
         (0..view.columns.len()).map(|index| width(longest(index), self.size)).collect()

@@ -1,4 +1,3 @@
 //! Tests of the PDF.
 
 mod fixture;
-mod scratch;

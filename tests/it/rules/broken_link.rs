@@ -5,7 +5,9 @@ use crate::support::in_text;
 fn with(prose: &str) -> Vec<String> {
     in_text(
         "broken-link",
-        &format!("(* {prose} *)\nFUNCTION_BLOCK FB_Valve\nVAR_INPUT\n  Open : BOOL; // open\nEND_VAR\nEND_FUNCTION_BLOCK\n"),
+        &format!(
+            "(* {prose} *)\nFUNCTION_BLOCK FB_Valve\nVAR_INPUT\n  Open : BOOL; // open\nEND_VAR\nEND_FUNCTION_BLOCK\n"
+        ),
     )
 }
 

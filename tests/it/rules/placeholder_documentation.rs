@@ -5,7 +5,10 @@ use crate::support::in_text;
 #[test]
 fn an_editors_placeholder_is_found_and_counts_as_nothing() {
     let text = "// TODO: Add your comment here\nFUNCTION_BLOCK FB_Valve\nEND_FUNCTION_BLOCK\n";
-    assert_eq!(in_text("placeholder-documentation", text), ["a.st:1:1 the documentation of `FB_Valve` is a placeholder"]);
+    assert_eq!(
+        in_text("placeholder-documentation", text),
+        ["a.st:1:1 the documentation of `FB_Valve` is a placeholder"]
+    );
     assert_eq!(in_text("undocumented", text), [""; 0], "reported once, not twice");
 }
 

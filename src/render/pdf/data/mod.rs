@@ -114,7 +114,12 @@ fn entity_value(entity: &EntityView, parts: Parts, space: plan::Space) -> Result
 }
 
 /// Adds column widths to the sections and takes out those that are not printed.
-fn sections(owner: &mut Map<String, Value>, views: &[crate::book::view::entity::SectionView], parts: Parts, space: plan::Space) {
+fn sections(
+    owner: &mut Map<String, Value>,
+    views: &[crate::book::view::entity::SectionView],
+    parts: Parts,
+    space: plan::Space,
+) {
     let list = std::mem::take(array(owner, "sections"));
     let kept = list.into_iter().zip(views).filter(|(_, view)| view.public || parts.internals);
     *array(owner, "sections") = kept

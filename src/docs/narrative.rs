@@ -1,0 +1,30 @@
+//! Prose that stands in no comment: narrative pages, descriptions of projects, remarks of tables.
+
+use super::links::Index;
+use super::mapped::Mapped;
+use super::markdown::Reader;
+use super::model::Block;
+use crate::library::Catalogue;
+use crate::text::FileId;
+
+/// Reads Markdown whose links name entities of the whole tree.
+#[derive(Debug)]
+pub struct Narrator<'a> {
+    index: Index<'a>,
+}
+
+impl<'a> Narrator<'a> {
+    /// For the names of `catalogue`.
+    #[must_use]
+    pub fn new(catalogue: &'a Catalogue) -> Self {
+        Self { index: Index::new(catalogue) }
+    }
+
+    /// The blocks of `text`. Places in them mean nothing.
+    #[must_use]
+    pub fn blocks(&self, text: &str) -> Vec<Block> {
+        let mut mapped = Mapped::new(FileId(0));
+        mapped.push(text, 0);
+        Reader { index: &self.index, scope: None }.blocks(&mapped)
+    }
+}
