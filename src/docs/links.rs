@@ -48,13 +48,13 @@ impl<'a> Index<'a> {
     }
 
     /// What `path` means in the documentation of `scope`.
-    pub(super) fn resolve(&self, scope: ItemId, path: &str) -> Option<LinkTarget> {
+    pub(super) fn resolve(&self, scope: Option<ItemId>, path: &str) -> Option<LinkTarget> {
         let names = segments(path)?;
         self.resolve_names(scope, &names)
     }
 
     /// Whether text in brackets is a link, and where to; `None` for text that is only text.
-    pub(super) fn shortcut(&self, scope: ItemId, written: &str) -> Option<LinkTarget> {
+    pub(super) fn shortcut(&self, scope: Option<ItemId>, written: &str) -> Option<LinkTarget> {
         let code = written.len() > 2 && written.starts_with('`') && written.ends_with('`');
         let bare = written.trim_matches('`').trim();
         let names = segments(bare)?;
@@ -106,7 +106,7 @@ impl<'a> Index<'a> {
         out
     }
 
-    fn resolve_names(&self, scope: ItemId, names: &[&str]) -> Option<LinkTarget> {
+    fn resolve_names(&self, scope: Option<ItemId>, names: &[&str]) -> Option<LinkTarget> {
         let names = match names {
             [first, rest @ ..] if is_self(first) && !rest.is_empty() => rest,
             _ => names,
@@ -115,8 +115,8 @@ impl<'a> Index<'a> {
     }
 
     /// From the documented item outwards.
-    fn in_scope(&self, scope: ItemId, names: &[&str]) -> Option<LinkTarget> {
-        let mut at = Some(scope);
+    fn in_scope(&self, scope: Option<ItemId>, names: &[&str]) -> Option<LinkTarget> {
+        let mut at = scope;
         while let Some(id) = at {
             let item = self.catalogue.item(id);
             if let Some(first) = self.member(id, names[0])
@@ -135,7 +135,7 @@ impl<'a> Index<'a> {
     }
 
     /// Among all entities, with their namespaces and libraries before them.
-    fn in_tree(&self, scope: ItemId, names: &[&str]) -> Option<LinkTarget> {
+    fn in_tree(&self, scope: Option<ItemId>, names: &[&str]) -> Option<LinkTarget> {
         (0..names.len()).find_map(|k| {
             let found = self.entities.get(&names[k].to_lowercase())?;
             let fitting = found.iter().copied().filter(|id| self.is_qualified(*id, &names[..k]));
@@ -145,17 +145,22 @@ impl<'a> Index<'a> {
         })
     }
 
-    fn in_globals(&self, scope: ItemId, names: &[&str]) -> Option<LinkTarget> {
+    fn in_globals(&self, scope: Option<ItemId>, names: &[&str]) -> Option<LinkTarget> {
         let found = self.globals.get(&names[0].to_lowercase())?;
         let near = self.nearest(scope, found.iter().copied(), |found| found.0);
         near.iter().find_map(|(id, i)| self.walk(LinkTarget::Variable(*id, *i), &names[1..]))
     }
 
     /// The candidates, those of the same library first.
-    fn nearest<T: Copy>(&self, scope: ItemId, found: impl Iterator<Item = T>, of: impl Fn(&T) -> ItemId) -> Vec<T> {
-        let library = self.catalogue.item(scope).library;
+    fn nearest<T: Copy>(
+        &self,
+        scope: Option<ItemId>,
+        found: impl Iterator<Item = T>,
+        of: impl Fn(&T) -> ItemId,
+    ) -> Vec<T> {
+        let library = scope.map(|scope| self.catalogue.item(scope).library);
         let mut all: Vec<T> = found.collect();
-        all.sort_by_key(|candidate| self.catalogue.item(of(candidate)).library != library);
+        all.sort_by_key(|candidate| Some(self.catalogue.item(of(candidate)).library) != library);
         all
     }
 

@@ -31,8 +31,8 @@ const SHORTCUT: &str = "rungbook-entity:";
 pub(super) struct Reader<'a> {
     /// The names of the tree.
     pub(super) index: &'a Index<'a>,
-    /// The documented item.
-    pub(super) scope: ItemId,
+    /// The documented item, if the prose stands in a comment.
+    pub(super) scope: Option<ItemId>,
 }
 
 impl Reader<'_> {
@@ -130,9 +130,7 @@ pub(super) fn flatten(blocks: Vec<Block>) -> Vec<Inline> {
             Block::Quote(content) | Block::Note { content, .. } => flatten(content),
             Block::List { items, .. } => flatten(items.into_iter().flat_map(|item| item.content).collect()),
             Block::Code { text, .. } => vec![Inline::Code(text)],
-            Block::Table { head, rows, .. } => {
-                std::iter::once(head).chain(rows).flatten().flat_map(spaced).collect()
-            }
+            Block::Table { head, rows, .. } => std::iter::once(head).chain(rows).flatten().flat_map(spaced).collect(),
             Block::Definitions(items) => {
                 items.into_iter().flat_map(|(term, meaning)| [spaced(term), flatten(meaning)].concat()).collect()
             }

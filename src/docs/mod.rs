@@ -33,7 +33,7 @@ pub use model::{
     Reason, TableText, Tag, Tags, Verdict,
 };
 pub use options::Options;
-pub use read::read;
+pub use read::{narrative, read};
 
 #[cfg(test)]
 mod tests;

@@ -16,7 +16,7 @@ use super::options::Options;
 use super::placement::{Candidate, Habit, choose_for_item, choose_for_variable};
 use super::tables::{self, Tables};
 use crate::library::{Catalogue, Comment, Item, ItemId, Placement, Pragma, Variable};
-use crate::text::Place;
+use crate::text::{FileId, Place};
 
 mod brief;
 mod tags;
@@ -33,6 +33,19 @@ pub fn read(catalogue: &Catalogue, options: &Options) -> Docs {
     docs
 }
 
+/// Reads prose that stands in no comment, such as the description of a library, as Markdown. Its links
+/// have no place of their own.
+#[must_use]
+pub fn narrative(catalogue: &Catalogue, text: &str) -> Vec<Block> {
+    if text.trim().is_empty() {
+        return Vec::new();
+    }
+    let mut mapped = Mapped::new(FileId(0));
+    mapped.push(text, 0);
+    let index = Index::new(catalogue);
+    Reader { index: &index, scope: None }.blocks(&mapped.within(Place::file(FileId(0))))
+}
+
 /// What it takes to read the documentation of one item.
 struct Context<'a> {
     catalogue: &'a Catalogue,
@@ -42,7 +55,7 @@ struct Context<'a> {
 
 fn read_item(catalogue: &Catalogue, index: &Index<'_>, id: ItemId, options: &Options) -> (Entry, Vec<Entry>) {
     let item = catalogue.item(id);
-    let context = Context { catalogue, reader: Reader { index, scope: id }, options };
+    let context = Context { catalogue, reader: Reader { index, scope: Some(id) }, options };
     let mut candidates = context.candidates(&item.comments, &item.name);
     choose_for_item(&mut candidates, item.kind, options);
     let entry = context.entry(candidates, &item.name, &item.pragmas);

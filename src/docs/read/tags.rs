@@ -21,7 +21,7 @@ pub(super) fn read(reader: &Reader<'_>, draft: Draft) -> Tags {
                 let name = param.name.as_str().to_owned();
                 ParamTag {
                     place: param.name.whole(),
-                    target: reader.index.parameter(reader.scope, &name),
+                    target: reader.scope.and_then(|scope| reader.index.parameter(scope, &name)),
                     name,
                     note: param.note.clone(),
                     content: reader.blocks(&param.text),
