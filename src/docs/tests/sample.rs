@@ -138,7 +138,7 @@ impl Sample {
 
     pub(super) fn catalogue(&self) -> Catalogue {
         let text: Arc<str> = self.text.as_str().into();
-        let source = Source { file: FileId(0), fragment: Fragment::verbatim(text, 0) };
+        let source = Source { file: FileId(0), fragment: Fragment::verbatim(text, 0), tree: None };
         Catalogue { sources: vec![source], ..self.catalogue.clone() }
     }
 
