@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use tera::{Context, Value};
 
 use super::context::Place;
-use super::prose::Prose;
+use super::prose::{Prose, message};
 use super::site::Site;
 use super::value::{list, markup, record, strings};
 use crate::book::view::coverage::{CoverageRow, Hole};
@@ -244,7 +244,7 @@ fn coverage_row(row: &CoverageRow) -> Value {
 }
 
 fn hole(hole: &Hole, place: &Place) -> Value {
-    record! { link: place.link(&hole.link), what: hole.what.as_str(), file: hole.file.as_str(), line: hole.line }
+    record! { link: place.link(&hole.link), what: markup(&message(&hole.what)), file: hole.file.as_str(), line: hole.line }
 }
 
 /// Whether each code has a page of its own.

@@ -8,8 +8,8 @@ use super::context::Place;
 use super::entity::Writer;
 use super::error::Error;
 use super::highlight::Highlighter;
-use super::prose::Prose;
-use super::value::{list, record, strings};
+use super::prose::{Prose, message};
+use super::value::{list, markup, record};
 use super::{Options, Page, lists, script};
 use crate::book::view::entity::EntityView;
 use crate::book::view::finding::FindingView;
@@ -217,11 +217,11 @@ impl<'a> Site<'a> {
             code: finding.code.as_str(),
             page: self.explanation(&finding.code).map(|url| place.href(url)),
             severity: finding.severity,
-            message: finding.message.as_str(),
+            message: markup(&message(&finding.message)),
             file: finding.file.as_str(),
             line: finding.line,
             column: finding.column,
-            help: strings(&finding.help),
+            help: list(&finding.help, |help| markup(&message(help))),
             line_href: line_href,
             entity: entity.map(|e| record! { name: e.core.name.as_str(), href: place.href(&e.core.url) }),
         }
