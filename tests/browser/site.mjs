@@ -189,24 +189,21 @@ for (const width of [390, 768, 1440]) {
   });
 }
 
-for (const colorScheme of ["light", "dark"]) {
-  for (const width of [390, 1440]) {
-    await check(`axe finds nothing serious, ${colorScheme}, ${width} px`, async () => {
-      await page.emulateMedia({ colorScheme });
-      await page.setViewportSize({ width, height: 900 });
-      for (const path of PAGES) {
-        await page.goto(url(path));
-        await page.evaluate(() => document.querySelectorAll("details").forEach((d) => (d.open = true)));
-        await page.evaluate(axe);
-        const { violations } = await page.evaluate(() => window.axe.run(document, { preload: false }));
-        const serious = violations.filter((v) => v.impact === "serious" || v.impact === "critical");
-        if (serious.length) {
-          const lines = serious.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 160) + " " + (n.any[0]?.message ?? "")).join(" | ")}`);
-          throw new Error(`${path}: ${lines.join("; ")}`);
-        }
-      }
-    });
-  }
+for (const [colorScheme, width] of [["light", 1440], ["dark", 390]]) {
+  await check(`axe finds nothing serious, ${colorScheme}, ${width} px`, async () => {
+    await page.emulateMedia({ colorScheme });
+    await page.setViewportSize({ width, height: 900 });
+    for (const path of PAGES) {
+      await page.goto(url(path));
+      await page.evaluate(() => document.querySelectorAll("details").forEach((d) => (d.open = true)));
+      await page.evaluate(axe);
+      const { violations } = await page.evaluate(() => window.axe.run(document, { preload: false }));
+      const serious = violations.filter((v) => v.impact === "serious" || v.impact === "critical");
+      const node = (n) => `${n.html.slice(0, 160)} ${n.any[0]?.message ?? ""}`;
+      const lines = serious.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map(node).join(" | ")}`);
+      if (lines.length) throw new Error(`${path}: ${lines.join("; ")}`);
+    }
+  });
 }
 
 await check("following every link of the front page gives a page", async () => {

@@ -169,8 +169,8 @@ impl<'a> Site<'a> {
             }
             Job::Kind(k) => lists::kind(&book.kinds[*k], place, &prose, context),
             Job::Entity(e) => Writer { site: self, entity: &book.entities[*e], place, prose }.fill(context),
-            Job::Chapter(c) => lists::chapter(&book.chapters[*c], &prose, context),
-            Job::Explanation(c) => lists::chapter(&book.explanations[*c], &prose, context),
+            Job::Chapter(c) => lists::chapter(&book.chapters, *c, place, &prose, context),
+            Job::Explanation(c) => lists::explanation(&book.explanations[*c], &prose, context),
             Job::Names(initial) => lists::names(book, initial.as_deref(), place, context),
             Job::Findings(code) => lists::findings(self, code.as_deref(), place, context),
             Job::Coverage => lists::coverage(book, place, context),
