@@ -44,10 +44,10 @@
 
   function setUpMenu() {
     var menu = document.querySelector("a.menu");
-    var sidebar = document.getElementById("sidebar");
+    var sidebar = document.getElementById("rb-sidebar");
     if (!menu || !sidebar) return;
     menu.setAttribute("role", "button");
-    menu.setAttribute("aria-controls", "sidebar");
+    menu.setAttribute("aria-controls", "rb-sidebar");
     function show(open) {
       body.classList.toggle("menu-open", open);
       menu.setAttribute("aria-expanded", String(open));
@@ -69,7 +69,7 @@
         menu.focus();
       }
     });
-    document.getElementById("content").addEventListener("click", function () {
+    document.getElementById("rb-content").addEventListener("click", function () {
       show(false);
     });
   }
@@ -112,22 +112,23 @@
   // A folder's content is made when it is first opened: a large tree costs nothing until then.
   function branch(name, url, node) {
     var item = element("li");
-    var details = element("details");
-    var summary = element("summary");
-    summary.appendChild(url ? link(name, url) : document.createTextNode(name));
-    details.appendChild(summary);
-    var made = false;
-    function make() {
-      if (made) return;
-      made = true;
-      details.appendChild(content(node));
+    var head = element("div", { class: "branch" });
+    var button = element("button", { type: "button", "aria-label": name, "aria-expanded": "false" });
+    head.append(button, url ? link(name, url) : element("span", {}, name));
+    item.appendChild(head);
+    var inside = null;
+    function show(open) {
+      if (!inside) {
+        inside = content(node);
+        item.appendChild(inside);
+      }
+      inside.hidden = !open;
+      button.setAttribute("aria-expanded", String(open));
     }
-    details.addEventListener("toggle", make);
-    if (holdsPage(node) || url === path) {
-      make();
-      details.open = true;
-    }
-    item.appendChild(details);
+    button.addEventListener("click", function () {
+      show(button.getAttribute("aria-expanded") === "false");
+    });
+    if (holdsPage(node) || url === path) show(true);
     return item;
   }
 
@@ -145,7 +146,7 @@
   }
 
   function setUpTree() {
-    var place = document.getElementById("nav-tree");
+    var place = document.getElementById("rb-nav-tree");
     var libraries = window.RUNGBOOK_NAV;
     if (!place || !libraries) return;
     var tree = element("ul", { class: "tree" });
@@ -154,7 +155,7 @@
     });
     place.replaceChildren(element("p", { class: "nav-title" }, "Libraries"), tree);
     var current = place.querySelector("[aria-current]");
-    var sidebar = document.getElementById("sidebar");
+    var sidebar = document.getElementById("rb-sidebar");
     if (current && sidebar) {
       var offset = current.getBoundingClientRect().top - sidebar.getBoundingClientRect().top;
       if (offset > sidebar.clientHeight * 0.7) sidebar.scrollTop = offset - sidebar.clientHeight / 3;

@@ -3,8 +3,8 @@
 (function () {
   "use strict";
   var root = document.body.dataset.root;
-  var input = document.getElementById("search");
-  var page = document.getElementById("search-page");
+  var input = document.getElementById("rb-search");
+  var page = document.getElementById("rb-search-page");
   if (!input) return;
 
   var SHOWN = 12;
@@ -117,7 +117,7 @@
   // --- The list under the field: a combobox after the ARIA practices -----------------------------------------------
 
   var list = document.createElement("div");
-  list.id = "search-list";
+  list.id = "rb-search-list";
   list.className = "search-list";
   list.setAttribute("role", "listbox");
   list.setAttribute("aria-label", "Search results");
@@ -125,7 +125,7 @@
   input.form.appendChild(list);
   input.setAttribute("role", "combobox");
   input.setAttribute("aria-autocomplete", "list");
-  input.setAttribute("aria-controls", "search-list");
+  input.setAttribute("aria-controls", "rb-search-list");
   input.setAttribute("aria-expanded", "false");
   var status = span("vh", "");
   status.setAttribute("role", "status");
@@ -161,7 +161,7 @@
       list.replaceChildren();
       found.entries.forEach(function (entry, i) {
         var option = hit(entry, query);
-        option.id = "search-option-" + i;
+        option.id = "rb-search-option-" + i;
         option.setAttribute("role", "option");
         option.setAttribute("aria-selected", "false");
         option.tabIndex = -1;

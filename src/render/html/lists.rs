@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use tera::{Context, Value};
 
 use super::context::Place;
-use super::prose::Prose;
+use super::prose::{Prose, message};
 use super::site::Site;
 use super::value::{list, markup, record, strings};
 use crate::book::view::coverage::{CoverageRow, Hole};
-use crate::book::view::prose::Href;
+use crate::book::view::prose::{Block, Href, Inline};
 use crate::book::view::{Book, Chapter, Entry, FolderView, IndexEntry, KindList, LibraryView};
 
 /// Above this, a long list is cut into pages.
@@ -150,10 +150,35 @@ pub(super) fn kind(kind: &KindList, place: &Place, prose: &Prose<'_>, context: &
     context.insert_value("many_libraries", Value::from(libraries.len() > 1));
 }
 
-/// A narrative page.
-pub(super) fn chapter(chapter: &Chapter, prose: &Prose<'_>, context: &mut Context) {
+/// A narrative page: one of `chapters`, with the way to those beside it.
+pub(super) fn chapter(chapters: &[Chapter], at: usize, place: &Place, prose: &Prose<'_>, context: &mut Context) {
+    let beside = |at: Option<usize>| {
+        let chapter = at.and_then(|at| chapters.get(at));
+        Value::from(chapter.map(|c| record! { title: c.title.as_str(), href: place.href(&c.url) }))
+    };
+    explanation(&chapters[at], prose, context);
+    context.insert_value("previous", beside(at.checked_sub(1)));
+    context.insert_value("next", beside(at.checked_add(1)));
+}
+
+/// A page by itself, such as the one that explains a code.
+pub(super) fn explanation(chapter: &Chapter, prose: &Prose<'_>, context: &mut Context) {
     context.insert_value("title", Value::from(chapter.title.as_str()));
     context.insert_value("content", markup(&prose.blocks(&chapter.content, 2)));
+    context.insert_value("headings", headings(&chapter.content));
+    context.insert_value("previous", Value::none());
+    context.insert_value("next", Value::none());
+}
+
+/// The headings of the two highest levels, for the table of contents beside a page.
+fn headings(blocks: &[Block]) -> Value {
+    let heading = |block: &Block| match block {
+        Block::Heading { level, anchor, content } if *level <= 2 => {
+            Some(record! { level: *level as usize, anchor: anchor.as_str(), text: Inline::plain(content) })
+        }
+        _ => None,
+    };
+    Value::from(blocks.iter().filter_map(heading).collect::<Vec<_>>())
 }
 
 /// The names by initial; `#` gathers what begins with no letter.
@@ -244,7 +269,7 @@ fn coverage_row(row: &CoverageRow) -> Value {
 }
 
 fn hole(hole: &Hole, place: &Place) -> Value {
-    record! { link: place.link(&hole.link), what: hole.what.as_str(), file: hole.file.as_str(), line: hole.line }
+    record! { link: place.link(&hole.link), what: markup(&message(&hole.what)), file: hole.file.as_str(), line: hole.line }
 }
 
 /// Whether each code has a page of its own.

@@ -202,6 +202,21 @@ impl Prose<'_> {
     }
 }
 
+/// A message as markup: what stands between backticks is code.
+pub(super) fn message(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + 32);
+    let mut rest = text;
+    while let Some((before, (code, after))) = rest.split_once('`').and_then(|(b, r)| Some((b, r.split_once('`')?))) {
+        escape::push(&mut out, before);
+        out.push_str("<code>");
+        escape::push(&mut out, code);
+        out.push_str("</code>");
+        rest = after;
+    }
+    escape::push(&mut out, rest);
+    out
+}
+
 /// The same without links, for what stands in a link already.
 fn unlinked(inlines: &[Inline]) -> Vec<Inline> {
     let mut out = Vec::new();
@@ -215,4 +230,23 @@ fn unlinked(inlines: &[Inline]) -> Vec<Inline> {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn backticks_in_messages_make_code() {
+        assert_eq!(message("`a<b` is `c`"), "<code>a&lt;b</code> is <code>c</code>");
+        assert_eq!(message("a ` b & ``"), "a <code> b &amp; </code>`");
+        assert_eq!(message("plain"), "plain");
+    }
+
+    #[test]
+    fn links_do_not_nest() {
+        let link = |content| Inline::Link { to: Href::External { url: "https://x".to_owned() }, content };
+        let strong = Inline::Strong { content: vec![link(vec![Inline::text("a")])] };
+        assert_eq!(unlinked(&[strong]), [Inline::Strong { content: vec![Inline::text("a")] }]);
+    }
 }

@@ -8,8 +8,8 @@ use super::context::Place;
 use super::entity::Writer;
 use super::error::Error;
 use super::highlight::Highlighter;
-use super::prose::Prose;
-use super::value::{list, record, strings};
+use super::prose::{Prose, message};
+use super::value::{list, markup, record};
 use super::{Options, Page, lists, script};
 use crate::book::view::entity::EntityView;
 use crate::book::view::finding::FindingView;
@@ -169,8 +169,8 @@ impl<'a> Site<'a> {
             }
             Job::Kind(k) => lists::kind(&book.kinds[*k], place, &prose, context),
             Job::Entity(e) => Writer { site: self, entity: &book.entities[*e], place, prose }.fill(context),
-            Job::Chapter(c) => lists::chapter(&book.chapters[*c], &prose, context),
-            Job::Explanation(c) => lists::chapter(&book.explanations[*c], &prose, context),
+            Job::Chapter(c) => lists::chapter(&book.chapters, *c, place, &prose, context),
+            Job::Explanation(c) => lists::explanation(&book.explanations[*c], &prose, context),
             Job::Names(initial) => lists::names(book, initial.as_deref(), place, context),
             Job::Findings(code) => lists::findings(self, code.as_deref(), place, context),
             Job::Coverage => lists::coverage(book, place, context),
@@ -217,11 +217,11 @@ impl<'a> Site<'a> {
             code: finding.code.as_str(),
             page: self.explanation(&finding.code).map(|url| place.href(url)),
             severity: finding.severity,
-            message: finding.message.as_str(),
+            message: markup(&message(&finding.message)),
             file: finding.file.as_str(),
             line: finding.line,
             column: finding.column,
-            help: strings(&finding.help),
+            help: list(&finding.help, |help| markup(&message(help))),
             line_href: line_href,
             entity: entity.map(|e| record! { name: e.core.name.as_str(), href: place.href(&e.core.url) }),
         }

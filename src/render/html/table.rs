@@ -2,8 +2,8 @@
 
 use tera::Value;
 
-use super::prose::Prose;
-use super::value::{list, markup, record, strings};
+use super::prose::{Prose, message};
+use super::value::{list, markup, record};
 use crate::book::view::table::{BracketView, CellView, ColumnView, RowView, TableView};
 
 /// The table for its template. `line_href` leads to the listing that shows it, if one does.
@@ -28,7 +28,7 @@ pub(super) fn value(table: &TableView, prose: &Prose<'_>, line_href: Option<Stri
         rows: rows(table, &lanes, prose),
         has_remarks: table.rows.iter().any(|row| !row.remark.is_empty()),
         has_sentences: table.rows.iter().any(|row| !row.sentence.is_empty()),
-        errors: strings(&table.errors),
+        errors: list(&table.errors, |error| markup(&message(error))),
     }
 }
 

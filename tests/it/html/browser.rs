@@ -58,10 +58,13 @@ fn the_site_works_in_a_browser() {
     assert!(report.lines().filter(|line| line.starts_with("ok ")).count() >= 15, "\n{report}");
 }
 
-/// A site for looking at: `RUNGBOOK_SITE=folder cargo test --test it write_the_fixture -- --ignored`.
+/// A site for looking at: `RUNGBOOK_SITE=folder cargo test --test it write_the_fixture -- --ignored`; with
+/// `RUNGBOOK_COPIES=430` a large one.
 #[test]
 #[ignore = "needs RUNGBOOK_SITE, the folder to write to"]
 fn write_the_fixture() {
     let root = std::env::var("RUNGBOOK_SITE").expect("RUNGBOOK_SITE names the folder to write to");
-    write(Path::new(&root), &site(&fixture::book()));
+    let copies = std::env::var("RUNGBOOK_COPIES").ok().and_then(|copies| copies.parse().ok());
+    let book = copies.map_or_else(fixture::book, fixture::large);
+    write(Path::new(&root), &site(&book));
 }

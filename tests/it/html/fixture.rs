@@ -657,12 +657,7 @@ fn of(entities: Vec<EntityView>) -> Book {
             warnings: 1,
             infos: 1,
         },
-        chapters: vec![Chapter {
-            title: "Getting started".to_owned(),
-            url: "chapters/getting-started.html".to_owned(),
-            label: String::new(),
-            content: cylinder_prose(),
-        }],
+        chapters: ["Getting started", "Wiring"].map(chapter).into(),
         kinds: kinds(&entities),
         index: index(&entities),
         coverage: coverage(),
@@ -693,6 +688,11 @@ fn of(entities: Vec<EntityView>) -> Book {
         libraries: vec![library],
         entities,
     }
+}
+
+fn chapter(title: &str) -> Chapter {
+    let url = format!("chapters/{}.html", title.replace(' ', "-").to_lowercase());
+    Chapter { title: title.to_owned(), url, label: String::new(), content: cylinder_prose() }
 }
 
 fn entry(entity: &EntityView) -> Entry {

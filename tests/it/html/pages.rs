@@ -194,3 +194,15 @@ fn an_empty_book_is_a_site() {
     let faults = faults(&site(&book));
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
+
+/// `cargo test --release --no-default-features --test it a_large_book_is_quick -- --ignored --nocapture`.
+#[test]
+#[ignore = "measures; means something in release mode on a quiet machine only"]
+fn a_large_book_is_quick() {
+    let book = fixture::large(430);
+    let start = std::time::Instant::now();
+    let pages = site(&book);
+    let elapsed = start.elapsed();
+    let bytes: usize = pages.iter().map(|page| page.bytes.len()).sum();
+    assert!(elapsed.as_millis() < 1000, "{} pages, {} kB took {elapsed:?}", pages.len(), bytes / 1024);
+}
