@@ -40,7 +40,6 @@ pub(super) fn binary_project(extension: &str) -> Option<&'static str> {
             "it holds no source; export the library's own project from CODESYS as PLCopen XML"
         }
         "projectarchive" => "open it in CODESYS and export the project as PLCopen XML",
-        "pro" | "lib" => "in CODESYS V2.3, export it: Project > Export",
         "tpzip" | "tnzip" | "tszip" => "unpack it: it is an archive of the files of a TwinCAT project",
         "zap13" | "zap14" | "zap15" | "zap15_1" | "zap16" | "zap17" | "zap18" | "zap19" | "zap20" | "ap13" | "ap14"
         | "ap15" | "ap15_1" | "ap16" | "ap17" | "ap18" | "ap19" | "ap20" | "al17" | "al18" | "al19" | "al20" => {
@@ -48,6 +47,31 @@ pub(super) fn binary_project(extension: &str) -> Option<&'static str> {
         }
         _ => return None,
     })
+}
+
+/// What to do with a project of CODESYS V2.3, whose extensions others use as well.
+pub(super) const EXPORT_FROM_CODESYS_2: &str = "in CODESYS V2.3, export it: Project > Export";
+
+/// Whether files with `extension` are often no PLC sources, so that one that is no text is no wonder.
+pub(super) fn is_shared(extension: &str) -> bool {
+    matches!(
+        extension,
+        "xml"
+            | "db"
+            | "exp"
+            | "prg"
+            | "fun"
+            | "fb"
+            | "var"
+            | "typ"
+            | "sub"
+            | "export"
+            | "fct"
+            | "stu"
+            | "iec"
+            | "pro"
+            | "lib"
+    )
 }
 
 /// Why a file with `extension`, which no format reads, is skipped.

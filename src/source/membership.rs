@@ -154,13 +154,15 @@ fn names_its_files(kind: ProjectKind, vendor: Vendor) -> bool {
     match kind {
         ProjectKind::TwinCat => vendor == Vendor::TwinCat,
         ProjectKind::AutomationStudioLibrary | ProjectKind::AutomationStudioProgram => vendor == Vendor::BAndR,
-        ProjectKind::SimaticAx | ProjectKind::AutomationStudio => false,
+        ProjectKind::SimaticAx | ProjectKind::AutomationStudio | ProjectKind::PlcOpen => false,
     }
 }
 
 fn by_folder(projects: &[Project]) -> BTreeMap<&str, Vec<usize>> {
     let mut folders: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-    for (index, project) in projects.iter().enumerate() {
+    // An exported project is one file, and its neighbours are none of its.
+    let with_folder = projects.iter().enumerate().filter(|(_, project)| project.kind != ProjectKind::PlcOpen);
+    for (index, project) in with_folder {
         folders.entry(project.folder.as_str()).or_default().push(index);
     }
     folders

@@ -80,7 +80,7 @@ fn choose(path: &str) -> Choice {
     let extension = paths::extension(path);
     if is_table(path) {
         Choice::Read(Role::Table)
-    } else if projects::reads(path) || formats::reads(&extension) {
+    } else if projects::reads(path) || formats::reads(&extension) || matches!(extension.as_str(), "pro" | "lib") {
         Choice::Read(Role::Source)
     } else if let Some(help) = codes::binary_project(&extension) {
         Choice::Read(Role::Binary(help))
@@ -150,18 +150,26 @@ impl Reader<'_> {
     fn decoded(&self, candidate: &Candidate<'_>, bytes: Vec<u8>) -> Outcome {
         let decoded = decode::decode(&bytes);
         let (text, encoding): (Arc<str>, _) = (decoded.text.into(), decoded.encoding);
+        let extension = paths::extension(candidate.path);
         if candidate.role == Role::Table {
             return Outcome::Table { text, encoding, bytes: bytes.into() };
         }
+        if bytes.starts_with(b"CoDeSys+") {
+            return binary_project(candidate.path, codes::EXPORT_FROM_CODESYS_2);
+        }
         drop(bytes);
         if let Encoding::Binary(kind) = encoding {
-            return not_decodable(candidate.path, kind);
+            return if codes::is_shared(&extension) {
+                Outcome::Skipped(codes::NOT_A_PLC_SOURCE)
+            } else {
+                not_decodable(candidate.path, kind)
+            };
         }
         let input = Input { path: candidate.path, text: &text, setting: self.settings.of(candidate.path) };
         if let Some((draft, notes)) = projects::read(&input) {
             return Outcome::Project { text, encoding, draft, notes };
         }
-        match formats::claimant(&paths::extension(candidate.path), &input) {
+        match formats::claimant(&extension, &input) {
             Some(format) => {
                 let unwrapped = format.unwrap(&input);
                 Outcome::Unit { text, encoding, format, unwrapped }
@@ -235,6 +243,7 @@ impl Assembly {
                 let mut notes = unwrapped.notes;
                 notes.extend(guessed(&encoding));
                 let file = self.file(path, text, encoding, notes);
+                self.drafts.extend(unwrapped.project.map(|draft| (file, draft)));
                 self.tree.units.push(Unit {
                     file,
                     format: format.name(),

@@ -76,7 +76,7 @@ fn utf8_or_guess(bytes: &[u8]) -> Decoded {
     Decoded { text: text.into_owned(), encoding: Encoding::Guessed(guess.name()) }
 }
 
-/// What the bytes look like, if they are no text: a known signature, or a zero byte near the start.
+/// What the bytes look like, if they are no text: a known signature, a zero byte near the start, or many control characters.
 fn binary(bytes: &[u8]) -> Option<&'static str> {
     const SIGNATURES: [(&[u8], &str); 5] = [
         (b"PK\x03\x04", "a ZIP archive"),
@@ -86,10 +86,13 @@ fn binary(bytes: &[u8]) -> Option<&'static str> {
         (b"%PDF", "a PDF file"),
     ];
     let signature = SIGNATURES.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, name)| *name);
-    let zero = bytes.iter().take(8192).any(|byte| *byte == 0);
+    let head = &bytes[..bytes.len().min(8192)];
+    let zero = head.contains(&0);
+    // Text holds hardly any control characters besides tabs, line ends, form feeds and the end mark of DOS.
+    let control = head.iter().filter(|byte| **byte < 32 && !matches!(byte, 9..=13 | 26 | 27)).count();
     match signature {
         Some(name) if zero || name != "a Windows program" => Some(name),
-        _ if zero => Some("binary data"),
+        _ if zero || control > head.len() / 32 => Some("binary data"),
         _ => None,
     }
 }
@@ -115,6 +118,7 @@ mod tests {
     #[test]
     fn a_zero_byte_means_no_text() {
         assert_eq!(decode(b"PROGRAM\0\x01\x02").encoding, Encoding::Binary("binary data"));
+        assert_eq!(decode(b"\x01\xE7\x54\x85\xC6\x6A\x1C\x7E\xD4").encoding, Encoding::Binary("binary data"));
         assert_eq!(decode(b"PK\x03\x04rest").encoding, Encoding::Binary("a ZIP archive"));
     }
 }

@@ -241,18 +241,24 @@ impl SpanMap {
         if run.stands_for.is_some() { run.to } else { run.to + (offset - run.from) }
     }
 
-    /// The file's span for the fragment's `span`.
+    /// The file's span for the fragment's `span`: the smallest that holds all that its bytes stand for.
     #[must_use]
     pub fn span(&self, span: Span) -> Span {
         if span.is_empty() {
             return Span::at(self.offset(span.start));
         }
-        let last = self.run(span.end - 1);
-        let end = match last.stands_for {
-            Some(len) => last.to + len,
-            None => last.to + (span.end - last.from),
+        let first = self.runs.partition_point(|run| run.from <= span.start).saturating_sub(1);
+        let until = self.runs.partition_point(|run| run.from < span.end).max(first + 1);
+        let piece = |index: usize| {
+            let run = self.runs[index];
+            let from = run.from.max(span.start);
+            let end = self.runs.get(index + 1).map_or(span.end, |next| next.from.min(span.end));
+            match run.stands_for {
+                Some(length) => Span::new(run.to, run.to + length),
+                None => Span::new(run.to + (from - run.from), run.to + (end - run.from)),
+            }
         };
-        Span::new(self.offset(span.start), end)
+        (first + 1..until).map(piece).fold(piece(first), Span::cover)
     }
 
     fn run(&self, offset: u32) -> Run {

@@ -3,18 +3,40 @@
 //! A format claims files by extension, then by what their text begins with and by the [`Setting`] they
 //! stand in. Of several that claim a file, a sure one wins over a likely one, and then the first.
 
+mod automation_studio;
+mod codesys2;
+mod codesys_export;
+mod codesys_text;
+mod four_diac;
+mod keyword;
 mod plain;
+mod plcopen;
+mod plcopen_declaration;
+mod siemens;
 mod twincat;
+mod xhtml;
 
 use std::sync::Arc;
 
 use super::codes;
 use super::note::Note;
+use super::projects::Draft;
 use super::xml::{Problem, Xml};
 use crate::text::{Object, Vendor};
 
 /// All formats.
-pub static ALL: &[&dyn Format] = &[&twincat::TwinCat, &plain::PlainText];
+pub static ALL: &[&dyn Format] = &[
+    &twincat::TwinCat,
+    &plcopen::PlcOpen,
+    &codesys_export::CodesysExport,
+    &codesys2::Codesys2,
+    &four_diac::FourDiac,
+    &siemens::Siemens,
+    &automation_studio::AutomationStudio,
+    &codesys_text::CodesysText,
+    &plain::LogiCad,
+    &plain::PlainText,
+];
 
 /// Takes the container off the files of one format.
 pub trait Format: Sync {
@@ -88,6 +110,8 @@ pub struct Unwrapped {
     pub nested_comments: Option<bool>,
     /// What is wrong with it, or was guessed.
     pub notes: Vec<Note>,
+    /// The project that the file is, if it is one by itself.
+    pub(in crate::source) project: Option<Draft>,
 }
 
 /// The format that claims `input`.

@@ -1,6 +1,7 @@
 //! Structured Text as a plain text file: one object, whose declaration is the whole text.
 
 use super::{Claim, Format, Input, Setting, Unwrapped};
+use crate::source::paths;
 use crate::text::{Fragment, Object, ObjectKind, Span, Vendor};
 
 /// Plain Structured Text.
@@ -13,7 +14,7 @@ impl Format for PlainText {
     }
 
     fn extensions(&self) -> &'static [&'static str] {
-        &["st", "iec", "iecst"]
+        &["st", "iec"]
     }
 
     fn claims(&self, _: &Input<'_>) -> Claim {
@@ -21,12 +22,31 @@ impl Format for PlainText {
     }
 
     fn unwrap(&self, input: &Input<'_>) -> Unwrapped {
-        let (vendor, nested_comments) = match input.setting {
-            Setting::Plain => (Vendor::Standard, None),
-            Setting::SimaticAx => (Vendor::SimaticAx, None),
-            Setting::BAndR => (Vendor::BAndR, Some(false)),
-        };
-        Unwrapped { objects: vec![whole_text(input)], vendor, nested_comments, notes: Vec::new() }
+        let vendor = if input.setting == Setting::SimaticAx { Vendor::SimaticAx } else { Vendor::Standard };
+        Unwrapped { objects: vec![whole_text(input)], vendor, ..Unwrapped::default() }
+    }
+}
+
+/// Structured Text of logi.CAD 3 and Neuron Power Engineer.
+#[derive(Debug)]
+pub(super) struct LogiCad;
+
+impl Format for LogiCad {
+    fn name(&self) -> &'static str {
+        "logi.CAD 3"
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        &["iecst", "stu"]
+    }
+
+    fn claims(&self, input: &Input<'_>) -> Claim {
+        let is_text = paths::extension(input.path) == "iecst" || !input.head().trim_start().starts_with('<');
+        if is_text { Claim::Likely } else { Claim::No }
+    }
+
+    fn unwrap(&self, input: &Input<'_>) -> Unwrapped {
+        Unwrapped { objects: vec![whole_text(input)], vendor: Vendor::LogiCad, ..Unwrapped::default() }
     }
 }
 

@@ -44,7 +44,7 @@ impl Format for TwinCat {
             top(element, &mut objects, &mut notes);
         }
         notes.extend(note_if_empty(&objects, "TwinCAT object"));
-        Unwrapped { objects, vendor: Vendor::TwinCat, nested_comments: None, notes }
+        Unwrapped { objects, vendor: Vendor::TwinCat, notes, ..Unwrapped::default() }
     }
 }
 

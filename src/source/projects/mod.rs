@@ -22,6 +22,8 @@ pub enum ProjectKind {
     AutomationStudioLibrary,
     /// B&R Automation Studio: the `.prg` of a program, whose `.var` and `.typ` files are its own.
     AutomationStudioProgram,
+    /// A project exported as PLCopen XML, which is its only file.
+    PlcOpen,
 }
 
 /// A project.
@@ -111,7 +113,7 @@ pub(super) struct Draft {
 }
 
 impl Draft {
-    fn new(kind: ProjectKind, name: String, path: &str) -> Self {
+    pub(super) fn new(kind: ProjectKind, name: String, path: &str) -> Self {
         let (about, libraries, members) = (About::default(), Vec::new(), Vec::new());
         Self { kind, name, folder: paths::folder(path).to_owned(), about, libraries, members }
     }

@@ -12,7 +12,7 @@ mod scan;
 mod text;
 mod tree;
 
-pub(crate) use tree::{Element, Xml};
+pub(crate) use tree::{Element, Mixed, Xml};
 
 use crate::text::Span;
 

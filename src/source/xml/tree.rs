@@ -218,6 +218,13 @@ pub(crate) struct Element<'x> {
     index: u32,
 }
 
+/// What an element holds.
+#[derive(Clone, Debug)]
+pub(crate) enum Mixed<'x> {
+    Text(Fragment),
+    Element(Element<'x>),
+}
+
 /// The value of an attribute and where it stands.
 #[derive(Clone, Debug)]
 pub(crate) struct Attribute<'x> {
@@ -325,6 +332,26 @@ impl<'x> Element<'x> {
         out.finish(content.start)
     }
 
+    /// Text and elements directly inside, in the order of the file.
+    pub(crate) fn mixed(self) -> Vec<Mixed<'x>> {
+        let mut out = Vec::new();
+        let mut at = self.content().start;
+        let text = |start: u32, end: u32, out: &mut Vec<Mixed<'x>>| {
+            let mut piece = FragmentBuilder::new();
+            text::character_data(self.xml.text, Span::new(start, end), &mut piece);
+            if !piece.is_empty() {
+                out.push(Mixed::Text(piece.finish(start)));
+            }
+        };
+        for child in self.children() {
+            text(at, child.span().start, &mut out);
+            out.push(Mixed::Element(child));
+            at = child.span().end;
+        }
+        text(at, self.content().end, &mut out);
+        out
+    }
+
     /// The character data directly inside, without the white space around it; `None` where it is blank.
     pub(crate) fn trimmed(self) -> Option<String> {
         let fragment = self.text();
@@ -340,10 +367,5 @@ impl<'x> Element<'x> {
     /// What stands between the tags, markup and all.
     pub(crate) fn raw(self) -> Fragment {
         Fragment::verbatim(self.content().of(self.xml.text), self.content().start)
-    }
-
-    /// The element with its tags.
-    pub(crate) fn raw_outer(self) -> Fragment {
-        Fragment::verbatim(self.span().of(self.xml.text), self.span().start)
     }
 }

@@ -1,8 +1,11 @@
 //! Tests of `source`: each format and each quirk on small files of our own, and the way back to the file.
 
 mod codes;
+mod codesys;
 mod disk;
+mod others;
 mod plain;
+mod plcopen;
 mod projects;
 mod span_map;
 mod tree;

@@ -1,0 +1,216 @@
+//! PLCopen XML (TC6, namespaces `tc6_0200` and `tc6_0201`), with the additions of CODESYS.
+//!
+//! Declarations are XML here. Where the exporting tool adds them as text (`InterfaceAsPlainText`), that is taken; otherwise
+//! `plcopen_declaration` writes them as Structured Text, each word with the place of the element it comes from. Graphical
+//! bodies are kept as they stand. Methods, properties and interfaces are additions of CODESYS (`addData`).
+
+use std::collections::BTreeMap;
+
+use super::plcopen_declaration as declaration;
+use super::{Claim, Format, Input, Unwrapped, note_if_empty, xhtml, xml_notes};
+use crate::source::paths;
+use crate::source::projects::{About, Draft, Member, ProjectKind};
+use crate::source::xml::{Element, Xml};
+use crate::text::{Body, Fragment, Language, Object, ObjectKind, Vendor};
+
+/// PLCopen XML.
+#[derive(Debug)]
+pub(super) struct PlcOpen;
+
+impl Format for PlcOpen {
+    fn name(&self) -> &'static str {
+        "PLCopen XML"
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        &["xml", "plcopen", "plcopenxml"]
+    }
+
+    fn claims(&self, input: &Input<'_>) -> Claim {
+        if input.head().contains("plcopen.org/xml/tc6") { Claim::Sure } else { Claim::No }
+    }
+
+    fn unwrap(&self, input: &Input<'_>) -> Unwrapped {
+        let xml = Xml::parse(input.text, &[]);
+        let folders = folders(xml.document());
+        let mut objects = Vec::new();
+        collect(xml.document(), &folders, &mut objects);
+        let mut notes = xml_notes(&xml);
+        notes.extend(note_if_empty(&objects, "POU, type or variable list"));
+        let project = xml.root().and_then(|root| project(root, input.path));
+        let product = xml.root().and_then(|root| root.child("fileHeader")).and_then(|head| head.value("productName"));
+        let vendor =
+            if product.is_some_and(|name| name.contains("TwinCAT")) { Vendor::TwinCat } else { Vendor::Codesys };
+        Unwrapped { objects, vendor, nested_comments: None, notes, project }
+    }
+}
+
+/// What the head of the file says of its project.
+fn project(root: Element<'_>, path: &str) -> Option<Draft> {
+    let head = root.child("contentHeader")?;
+    let name = head.value("name").filter(|name| !name.is_empty())?;
+    let mut draft = Draft::new(ProjectKind::PlcOpen, name, path);
+    let information = head.descendants().find(|element| element.name() == "ProjectInformation");
+    let named = |wanted: &str| {
+        let mut all = information?.children_named("property");
+        all.find(|property| property.value("name").as_deref() == Some(wanted))?.trimmed()
+    };
+    let some = |value: Option<String>| value.filter(|value| !value.trim().is_empty());
+    draft.about = About {
+        title: named("Title"),
+        version: some(head.value("version")).or_else(|| named("Version")),
+        company: named("Company"),
+        author: named("Author").or_else(|| some(head.value("author"))),
+        description: named("Description").or_else(|| head.child_text("Comment")),
+        namespace: named("DefaultNamespace"),
+    };
+    draft.members.push(Member {
+        path: paths::name(path).to_owned(),
+        span: head.name_span(),
+        file: None,
+        folder: Vec::new(),
+        exclude_from_build: false,
+        description: None,
+    });
+    Some(draft)
+}
+
+/// The folders of the objects, by the objects' identity; CODESYS adds them at the end of the file.
+fn folders(root: Element<'_>) -> BTreeMap<String, Vec<String>> {
+    fn enter(element: Element<'_>, path: &[String], out: &mut BTreeMap<String, Vec<String>>) {
+        for child in element.children() {
+            let mut path = path.to_vec();
+            match child.name() {
+                "Folder" => path.extend(child.value("Name")),
+                "Object" => {
+                    if let Some(id) = child.value("ObjectId") {
+                        out.insert(id, path.clone());
+                    }
+                }
+                _ => {}
+            }
+            enter(child, &path, out);
+        }
+    }
+    let mut out = BTreeMap::new();
+    for structure in root.descendants().filter(|element| element.name() == "ProjectStructure") {
+        enter(structure, &[], &mut out);
+    }
+    out
+}
+
+fn collect(element: Element<'_>, folders: &BTreeMap<String, Vec<String>>, objects: &mut Vec<Object>) {
+    for child in element.children() {
+        match top(child) {
+            Some(mut object) => {
+                object.folder = id(child).and_then(|id| folders.get(&id)).cloned().unwrap_or_default();
+                objects.push(object);
+            }
+            None => collect(child, folders, objects),
+        }
+        if child.name() == "resource" {
+            objects.extend(child.children_named("task").map(task));
+        }
+    }
+}
+
+/// The identity that CODESYS gives an object.
+fn id(element: Element<'_>) -> Option<String> {
+    let data = element.child("addData")?.children_named("data");
+    data.filter_map(|data| data.child_text("ObjectId")).next().or_else(|| element.value("ObjectId"))
+}
+
+fn top(element: Element<'_>) -> Option<Object> {
+    let kind = match element.name() {
+        "pou" => ObjectKind::Pou,
+        "dataType" => ObjectKind::DataType,
+        "globalVars" => ObjectKind::GlobalVariables,
+        "Interface" if element.attribute("name").is_some() => ObjectKind::Interface,
+        _ => return None,
+    };
+    Some(object(kind, element))
+}
+
+fn object(kind: ObjectKind, element: Element<'_>) -> Object {
+    let name = element.attribute("name").filter(|name| !name.value.is_empty());
+    let span = name.as_ref().map_or(element.name_span(), |name| name.span);
+    let mut object = Object::new(kind, name.map(|name| name.value.into_owned()), span);
+    let plain = plain_text(element);
+    object.documentation = if plain.is_some() { None } else { documentation(element) };
+    object.declaration = plain.or_else(|| declaration::of(kind, element));
+    object.body = element.child("body").map_or(Body::None, body);
+    if let Some(id) = id(element) {
+        object.properties.push(("id".to_owned(), id));
+    }
+    members(element, &mut object.children);
+    object
+}
+
+/// The declaration as text, where the tool adds it.
+fn plain_text(element: Element<'_>) -> Option<Fragment> {
+    let holders = [element.child("interface"), Some(element)];
+    let data = holders.into_iter().flatten().filter_map(|holder| holder.child("addData"));
+    let text = data.flat_map(|data| data.children_named("data")).find_map(|data| data.child("InterfaceAsPlainText"))?;
+    Some(xhtml::code(text.child("xhtml").unwrap_or(text)))
+}
+
+fn documentation(element: Element<'_>) -> Option<Fragment> {
+    let inside = element.child("interface").and_then(|interface| interface.child("documentation"));
+    xhtml::markdown(inside.or_else(|| element.child("documentation"))?)
+}
+
+fn body(body: Element<'_>) -> Body {
+    for child in body.children() {
+        match child.name() {
+            "ST" => return Body::St(xhtml::code(child.child("xhtml").unwrap_or(child))),
+            "IL" => return Body::Il(xhtml::code(child.child("xhtml").unwrap_or(child))),
+            "SFC" => return Body::Other(Language::Sfc, child.raw()),
+            "FBD" => return Body::Other(Language::Fbd, child.raw()),
+            "LD" => return Body::Other(Language::Ld, child.raw()),
+            _ => {}
+        }
+    }
+    let added = body.descendants().find(|element| element.name() == "data" && element.value("name").is_some());
+    match added {
+        Some(data) if data.value("name").is_some_and(|name| name.ends_with("cfc")) => {
+            Body::Other(Language::Cfc, data.raw())
+        }
+        Some(data) => Body::Other(Language::Unknown, data.raw()),
+        None => Body::None,
+    }
+}
+
+fn members(owner: Element<'_>, out: &mut Vec<Object>) {
+    for child in owner.children() {
+        let kind = match child.name() {
+            "action" => ObjectKind::Action,
+            "transition" => ObjectKind::Transition,
+            "Method" | "method" => ObjectKind::Method,
+            "Property" | "property" => ObjectKind::Property,
+            "GetAccessor" => ObjectKind::Getter,
+            "SetAccessor" => ObjectKind::Setter,
+            "actions" | "transitions" | "addData" | "data" => {
+                members(child, out);
+                continue;
+            }
+            _ => continue,
+        };
+        out.push(object(kind, child));
+    }
+}
+
+fn task(element: Element<'_>) -> Object {
+    let name = element.attribute("name");
+    let span = name.as_ref().map_or(element.name_span(), |name| name.span);
+    let mut task = Object::new(ObjectKind::Task, name.map(|name| name.value.into_owned()), span);
+    for key in ["interval", "priority", "single"] {
+        if let Some(value) = element.value(key).filter(|value| !value.is_empty()) {
+            task.properties.push((key.to_owned(), value));
+        }
+    }
+    for instance in element.children_named("pouInstance") {
+        let called = instance.value("typeName").filter(|name| !name.is_empty()).or_else(|| instance.value("name"));
+        task.properties.extend(called.map(|name| ("call".to_owned(), name)));
+    }
+    task
+}
