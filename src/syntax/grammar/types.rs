@@ -163,7 +163,13 @@ fn array(p: &mut Parser<'_>, context: Context) {
         }
         p.expect(TokenKind::RBracket);
     }
-    p.expect(TokenKind::Of);
+    if !p.at(TokenKind::Of) {
+        p.expected(TokenKind::Of.describe());
+        skip_while(p, |p| {
+            !matches!(p.current(), TokenKind::Of | TokenKind::Semicolon) && !p.begins_line() && !at_end(p)
+        });
+    }
+    p.eat(TokenKind::Of);
     type_spec(p, context);
     p.complete(marker, NodeKind::ArrayType);
 }

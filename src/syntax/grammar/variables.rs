@@ -27,6 +27,7 @@ pub(super) fn opt_section(p: &mut Parser<'_>) -> bool {
         return false;
     }
     let marker = p.start();
+    let section = p.current();
     p.bump();
     while p.at_any(SECTION_MODIFIERS) && !declares(p, 1) {
         p.bump();
@@ -35,7 +36,8 @@ pub(super) fn opt_section(p: &mut Parser<'_>) -> bool {
     if p.nth_is_word(0, "DB_SPECIFIC") {
         p.bump();
     }
-    p.within(TokenKind::EndVar, |p| variables(p, NodeKind::VarDecl));
+    // What a section of access paths declares looks different; `VAR_ACCESS` counts as open while it is read.
+    p.within(section, |p| p.within(TokenKind::EndVar, |p| variables(p, NodeKind::VarDecl)));
     if p.eat(TokenKind::EndVar) {
         p.eat(TokenKind::Semicolon);
     } else {
@@ -77,6 +79,9 @@ fn at_end(p: &Parser<'_>) -> bool {
 }
 
 fn at_declared_name(p: &Parser<'_>) -> bool {
+    if p.at(TokenKind::At) && p.nth(1) == TokenKind::Address {
+        return true;
+    }
     let n = u32::from(p.at(TokenKind::Hash));
     is_name(p.nth(n)) || (p.nth(n).is_keyword() && declares(p, n + 1))
 }
@@ -87,6 +92,7 @@ fn variable(p: &mut Parser<'_>, kind: NodeKind) {
     names(p);
     if p.eat(TokenKind::Colon) {
         opt_location(p);
+        opt_access_path(p);
         types::type_spec(p, types::Context::Variable);
         suffixes(p);
     } else {
@@ -98,7 +104,10 @@ fn variable(p: &mut Parser<'_>, kind: NodeKind) {
 
 fn names(p: &mut Parser<'_>) {
     loop {
-        declared_name(p);
+        // A variable may have an address and no name.
+        if !(p.at(TokenKind::At) && p.nth(1) == TokenKind::Address) {
+            declared_name(p);
+        }
         opt_location(p);
         if !p.eat(TokenKind::Comma) {
             return;
@@ -151,6 +160,17 @@ fn opt_location(p: &mut Parser<'_>) {
     p.complete(marker, NodeKind::Location);
 }
 
+/// What a name in `VAR_ACCESS` gives access to, up to the colon before its type: `station.%IX1.1 :`.
+fn opt_access_path(p: &mut Parser<'_>) {
+    if !p.is_open(TokenKind::VarAccess) {
+        return;
+    }
+    let marker = p.start();
+    super::expressions::variable(p);
+    p.complete(marker, NodeKind::Location);
+    p.expect(TokenKind::Colon);
+}
+
 /// What follows the type: edges, the initial value, the access of `VAR_ACCESS`.
 fn suffixes(p: &mut Parser<'_>) {
     const FLAGS: TokenSet = TokenSet::new(&[
@@ -181,7 +201,7 @@ fn suffixes(p: &mut Parser<'_>) {
 
 /// The `;`. Where the next declaration or the section's end follows, its lack costs nothing.
 fn end(p: &mut Parser<'_>) {
-    if p.eat(TokenKind::Semicolon) {
+    if p.eat(TokenKind::Semicolon) || matches!(p.previous(), TokenKind::EndStruct | TokenKind::EndUnion) {
         return;
     }
     if at_end(p) || (p.begins_line() && at_declared_name(p) && declares(p, 1)) {
@@ -196,9 +216,8 @@ fn recover(p: &mut Parser<'_>, mut stuck: bool) {
     let start = p.position();
     skip_while(p, |p| {
         let moved = p.position() > start || !stuck;
-        !p.at(TokenKind::Semicolon)
-            && !at_end(p)
-            && !(moved && p.begins_line() && at_declared_name(p) && declares(p, 1))
+        let next = moved && p.begins_line() && at_declared_name(p) && declares(p, 1);
+        !next && !p.at(TokenKind::Semicolon) && !at_end(p)
     });
     stuck = p.position() == start;
     if !p.eat(TokenKind::Semicolon) && stuck && !at_end(p) {
