@@ -6,7 +6,7 @@
 use super::super::kind::{NodeKind, TokenKind};
 use super::super::parser::{Marker, Parser};
 use super::super::set::TokenSet;
-use super::names::{any_name, bump_name, name, nth_is_name, path};
+use super::names::{any_name, bump_name, keyword_may_be_name, name, nth_is_name, path};
 use super::{
     DECLARATION_ENDS, STATEMENT_ENDS, VAR_KEYWORDS, configuration, error_token, il, sfc, siemens, statements, types,
     variables,
@@ -166,7 +166,7 @@ fn header(p: &mut Parser<'_>) {
 
 /// The name of a POU; libraries of operators declare even `AND`.
 fn declared_name(p: &mut Parser<'_>) {
-    if p.current().is_keyword() && p.nth(1) == TokenKind::Colon {
+    if keyword_may_be_name(p.current()) && p.nth(1) == TokenKind::Colon {
         any_name(p);
     } else {
         name(p);

@@ -7,7 +7,7 @@ use super::super::kind::{NodeKind, TokenKind};
 use super::super::parser::Parser;
 use super::super::set::TokenSet;
 use super::declarations::declaration_at;
-use super::names::{any_name, bump_name, is_name};
+use super::names::{any_name, bump_name, is_name, keyword_may_be_name};
 use super::{DECLARATION_ENDS, VAR_KEYWORDS, initializers, skip_while, types};
 
 const SECTION_MODIFIERS: TokenSet = TokenSet::new(&[
@@ -68,13 +68,13 @@ pub(super) fn variables(p: &mut Parser<'_>, kind: NodeKind) {
     }
 }
 
+/// Whether the section must have ended: something is closed that is open, or something else begins.
 fn at_end(p: &Parser<'_>) -> bool {
-    let kind = p.current();
-    match kind {
+    match p.current() {
         TokenKind::Eof => true,
         kind if !kind.is_keyword() => false,
-        _ if declares(p, 1) => false,
-        kind => DECLARATION_ENDS.contains(kind) || VAR_KEYWORDS.contains(kind) || declaration_at(p).is_some(),
+        kind if DECLARATION_ENDS.contains(kind) => p.is_open(kind),
+        kind => VAR_KEYWORDS.contains(kind) || (!declares(p, 1) && declaration_at(p).is_some()),
     }
 }
 
@@ -83,7 +83,7 @@ fn at_declared_name(p: &Parser<'_>) -> bool {
         return true;
     }
     let n = u32::from(p.at(TokenKind::Hash));
-    is_name(p.nth(n)) || (p.nth(n).is_keyword() && declares(p, n + 1))
+    is_name(p.nth(n)) || (keyword_may_be_name(p.nth(n)) && declares(p, n + 1))
 }
 
 /// `a, b AT %I* : T := x;`
@@ -97,6 +97,10 @@ fn variable(p: &mut Parser<'_>, kind: NodeKind) {
         suffixes(p);
     } else {
         p.expected("`:` and a type");
+        if types::at_type(p) && !p.begins_line() {
+            types::type_spec(p, types::Context::Variable);
+            suffixes(p);
+        }
     }
     end(p);
     p.complete(marker, kind);
@@ -211,16 +215,15 @@ fn end(p: &mut Parser<'_>) {
     recover(p, false);
 }
 
-/// Skips to behind the next `;`, or to the next line that looks like a declaration.
-fn recover(p: &mut Parser<'_>, mut stuck: bool) {
+/// Skips to behind the next `;`, or to where a declaration begins: on a new line, or, where nothing has been read
+/// of one yet (it is `stuck`), anywhere.
+fn recover(p: &mut Parser<'_>, stuck: bool) {
     let start = p.position();
     skip_while(p, |p| {
-        let moved = p.position() > start || !stuck;
-        let next = moved && p.begins_line() && at_declared_name(p) && declares(p, 1);
-        !next && !p.at(TokenKind::Semicolon) && !at_end(p)
+        let moved = p.position() > start;
+        let begins = (moved || !stuck) && at_declared_name(p) && declares(p, 1);
+        let next = begins && (stuck || p.begins_line());
+        (stuck && !moved) || !(next || p.at(TokenKind::Semicolon) || at_end(p))
     });
-    stuck = p.position() == start;
-    if !p.eat(TokenKind::Semicolon) && stuck && !at_end(p) {
-        super::error_token(p);
-    }
+    p.eat(TokenKind::Semicolon);
 }
