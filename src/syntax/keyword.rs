@@ -86,6 +86,6 @@ mod tests {
             assert_eq!(keyword(&format!("{text}_x")), None, "{text}");
         }
         assert_eq!(keyword(""), None);
-        assert_eq!(keyword("ELSEIF"), None);
+        assert_eq!(keyword("ELSIFF"), None);
     }
 }

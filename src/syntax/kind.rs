@@ -53,6 +53,7 @@ macro_rules! token_kinds {
         pub(super) const KEYWORDS: &[(&str, TokenKind)] = &[
             $(($hard_text, TokenKind::$hard),)*
             $(($soft_text, TokenKind::$soft),)*
+            ("ELSEIF", TokenKind::Elsif),
         ];
     };
 }
@@ -231,6 +232,8 @@ node_kinds! {
     Accessor,
     /// `ACTION … END_ACTION`.
     Action,
+    /// `ACTIONS pou … END_ACTIONS`: the actions of a POU, apart from it.
+    Actions,
     /// `TRANSITION … END_TRANSITION`.
     Transition,
     /// `NAMESPACE … END_NAMESPACE`.

@@ -14,6 +14,7 @@ use logos::Logos;
 use super::codes;
 use super::keyword::keyword;
 use super::kind::TokenKind;
+use super::scan::{find, line_length, nested_length, pragma_has_strings, quoted_pragma_length, time_literal};
 use super::{Options, SyntaxError};
 use crate::diagnostic::Code;
 use crate::text::Span;
@@ -36,7 +37,7 @@ enum Raw {
     #[regex("\r\n|\n|\r")]
     Newline,
     #[regex(
-        "[A-Za-z_\u{AA}\u{B5}\u{BA}\u{C0}-\u{1FFF}\u{2C00}-\u{2FFF}\u{3005}-\u{D7FF}\u{F900}-\u{FAFF}\u{10000}-\u{EFFFF}][0-9A-Za-z_\u{AA}\u{B5}\u{BA}\u{C0}-\u{1FFF}\u{2C00}-\u{2FFF}\u{3005}-\u{D7FF}\u{F900}-\u{FAFF}\u{10000}-\u{EFFFF}]*"
+        "[A-Za-z_\u{AA}\u{B5}\u{BA}\u{C0}-\u{1FFF}\u{2C00}-\u{2FFF}\u{3005}-\u{D7FF}\u{F900}-\u{FAFF}\u{10000}-\u{EFFFF}][$0-9A-Za-z_\u{AA}\u{B5}\u{BA}\u{C0}-\u{1FFF}\u{2C00}-\u{2FFF}\u{3005}-\u{D7FF}\u{F900}-\u{FAFF}\u{10000}-\u{EFFFF}]*"
     )]
     Word,
     #[regex("[0-9][0-9_]*")]
@@ -188,11 +189,11 @@ impl Scanner<'_> {
         let Some(next) = rest.get(1) else {
             return known.unwrap_or(TokenKind::Ident);
         };
-        if next.is_ascii_digit() || matches!(next, b'+' | b'-') {
-            if let Some((kind, length)) = time_literal(word, &rest[1..]) {
-                self.lexer.bump(1 + length);
-                return kind;
-            }
+        if (next.is_ascii_digit() || matches!(next, b'+' | b'-'))
+            && let Some((kind, length)) = time_literal(word, &rest[1..])
+        {
+            self.lexer.bump(1 + length);
+            return kind;
         }
         let is_value = next.is_ascii_alphanumeric() || matches!(next, b'_' | b'+' | b'-' | b'\'' | b'"' | 0x80..);
         if is_value {
@@ -316,108 +317,6 @@ fn punctuation(raw: Raw) -> TokenKind {
         Raw::Ampersand => TokenKind::Ampersand,
         _ => TokenKind::Unknown,
     }
-}
-
-/// The literal that `prefix#` and `value` (which begins behind the `#`) make, with the length of its value.
-fn time_literal(prefix: &str, value: &[u8]) -> Option<(TokenKind, usize)> {
-    const PREFIXES: [(&str, TokenKind); 22] = [
-        ("T", TokenKind::Duration),
-        ("TIME", TokenKind::Duration),
-        ("LT", TokenKind::Duration),
-        ("LTIME", TokenKind::Duration),
-        ("S5T", TokenKind::Duration),
-        ("S5TIME", TokenKind::Duration),
-        ("D", TokenKind::Date),
-        ("DATE", TokenKind::Date),
-        ("LD", TokenKind::Date),
-        ("LDATE", TokenKind::Date),
-        ("TOD", TokenKind::TimeOfDay),
-        ("TIME_OF_DAY", TokenKind::TimeOfDay),
-        ("LTOD", TokenKind::TimeOfDay),
-        ("LTIME_OF_DAY", TokenKind::TimeOfDay),
-        ("DT", TokenKind::DateAndTime),
-        ("DATE_AND_TIME", TokenKind::DateAndTime),
-        ("DATE_TIME", TokenKind::DateAndTime),
-        ("LDT", TokenKind::DateAndTime),
-        ("LDATE_AND_TIME", TokenKind::DateAndTime),
-        ("LDATE_TIME", TokenKind::DateAndTime),
-        ("DTL", TokenKind::DateAndTime),
-        ("LTIMEOFDAY", TokenKind::TimeOfDay),
-    ];
-    let (_, kind) = PREFIXES.iter().find(|(text, _)| text.eq_ignore_ascii_case(prefix))?;
-    let digit_follows = |at: usize| value.get(at + 1).is_some_and(u8::is_ascii_digit);
-    let mut at = usize::from(matches!(value.first(), Some(b'+' | b'-')));
-    while let Some(byte) = value.get(at) {
-        let belongs = match byte {
-            b'0'..=b'9' | b'_' => true,
-            b'.' => digit_follows(at),
-            b'-' | b':' => *kind != TokenKind::Duration && digit_follows(at),
-            byte => *kind == TokenKind::Duration && byte.is_ascii_alphabetic(),
-        };
-        if !belongs {
-            break;
-        }
-        at += 1;
-    }
-    Some((*kind, at))
-}
-
-/// The length of a comment that nests, from behind its `(*` to behind its `*)`.
-fn nested_length(rest: &[u8]) -> Option<usize> {
-    let mut depth = 1_u32;
-    let mut at = 0;
-    while at + 1 < rest.len() {
-        match (rest[at], rest[at + 1]) {
-            (b'(', b'*') => {
-                depth = depth.saturating_add(1);
-                at += 2;
-            }
-            (b'*', b')') => {
-                depth -= 1;
-                at += 2;
-                if depth == 0 {
-                    return Some(at);
-                }
-            }
-            _ => at += 1,
-        }
-    }
-    None
-}
-
-/// Whether quotes in a pragma delimit strings: they do not in the free text of a region.
-fn pragma_has_strings(rest: &[u8]) -> bool {
-    let word = rest.trim_ascii_start();
-    let begins = |prefix: &[u8]| word.len() >= prefix.len() && word[..prefix.len()].eq_ignore_ascii_case(prefix);
-    !(begins(b"region") || begins(b"endregion") || begins(b"*"))
-}
-
-/// The length of a pragma up to the first `}` outside its strings.
-fn quoted_pragma_length(rest: &[u8]) -> Option<usize> {
-    let mut at = 0;
-    while let Some(byte) = rest.get(at) {
-        match byte {
-            b'}' => return Some(at + 1),
-            b'\'' | b'"' => {
-                let line = &rest[at + 1..];
-                let close = line.iter().position(|b| b == byte || matches!(b, b'\r' | b'\n'));
-                match close {
-                    Some(close) if line[close] == *byte => at += close + 2,
-                    _ => at += 1,
-                }
-            }
-            _ => at += 1,
-        }
-    }
-    None
-}
-
-fn line_length(rest: &[u8]) -> usize {
-    rest.iter().position(|byte| matches!(byte, b'\r' | b'\n')).unwrap_or(rest.len())
-}
-
-fn find(text: &[u8], needle: &[u8]) -> Option<usize> {
-    text.windows(needle.len()).position(|window| window == needle)
 }
 
 fn offset(value: usize) -> u32 {

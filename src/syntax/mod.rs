@@ -17,6 +17,7 @@ mod keyword;
 pub mod kind;
 mod lexer;
 mod parser;
+mod scan;
 mod set;
 pub mod tree;
 

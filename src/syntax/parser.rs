@@ -20,6 +20,9 @@ use crate::text::Span;
 /// How deep rules may nest.
 const MAX_DEPTH: u32 = 200;
 
+/// How many errors are kept; a text with more is no program.
+const MAX_ERRORS: usize = 1000;
+
 /// How high an expression may grow by operators in a row.
 const MAX_HEIGHT: u32 = 500;
 
@@ -216,11 +219,11 @@ impl<'t> Parser<'t> {
 
     /// Finishes the node that began at `marker`; `height` is that of its highest child.
     pub(super) fn finish(&mut self, marker: Marker, kind: NodeKind, height: u32) -> Done {
-        let first_token = self.indices[marker.position as usize];
-        let end_token = match self.position.checked_sub(1) {
-            Some(last) if self.position > marker.position => self.indices[last as usize] + 1,
-            _ => first_token,
-        };
+        let behind_last = self.position.checked_sub(1).map_or(0, |last| self.indices[last as usize] + 1);
+        let is_empty = self.position == marker.position;
+        // A node without tokens stands right behind the last token, so that it lies in the node around it.
+        let first_token = if is_empty { behind_last } else { self.indices[marker.position as usize] };
+        let end_token = behind_last;
         let index = self.nodes.len() as u32;
         self.nodes.push(Finished { kind, first_token, end_token, size: index - marker.nodes + 1 });
         Done { marker, index, height: height + 1 }
@@ -292,6 +295,15 @@ impl<'t> Parser<'t> {
         self.error_at(self.span_of(self.position), &codes::UNREADABLE_CONSTRUCT, message.into());
     }
 
+    /// Says `message` about the current token, and what would help.
+    pub(super) fn error_with_help(&mut self, message: &str, help: &str) {
+        let before = self.errors.len();
+        self.error(message);
+        if let Some(error) = self.errors.get_mut(before) {
+            error.help = Some(help.to_owned());
+        }
+    }
+
     /// Says that a semicolon is missing behind the last token.
     pub(super) fn missing_semicolon(&mut self) {
         let end = self.position.checked_sub(1).map_or(0, |last| self.span_of(last).end);
@@ -303,12 +315,16 @@ impl<'t> Parser<'t> {
     pub(super) fn missing_end(&mut self, marker: Marker, end: TokenKind) {
         let opener = self.span_of(marker.position);
         let message = format!("`{}` without {}", opener.of(self.text), end.describe());
+        let before = self.errors.len();
         self.error_at(opener, &codes::MISSING_END, message);
+        if let Some(error) = self.errors.get_mut(before) {
+            error.help = Some(format!("write {} where it ends", end.describe()));
+        }
     }
 
     fn error_at(&mut self, span: Span, code: &'static Code, message: String) {
         let repeated = self.errors.last().is_some_and(|last| last.span.start == span.start);
-        if !repeated {
+        if !repeated && self.errors.len() < MAX_ERRORS {
             self.errors.push(SyntaxError { span, message, help: None, code });
         }
     }
@@ -336,6 +352,13 @@ impl<'t> Parser<'t> {
     }
 }
 
+/// The stretch of preorder that a node's children still to come will fill, and the node's first token.
+struct Edge {
+    start: u32,
+    end: u32,
+    first_token: u32,
+}
+
 /// Turns finished nodes in postorder into preorder.
 ///
 /// Read backwards, postorder is preorder with the children reversed. So the last child of each node comes right
@@ -343,20 +366,22 @@ impl<'t> Parser<'t> {
 fn preorder(finished: &[Finished], token_count: usize) -> Box<[NodeData]> {
     let empty = NodeData { first_token: 0, end_token: 0, subtree_end: 0, kind: NodeKind::SourceFile };
     let mut nodes = vec![empty; finished.len()].into_boxed_slice();
-    let mut edges: Vec<(u32, u32)> = vec![(0, finished.len() as u32)];
+    let mut edges: Vec<Edge> = vec![Edge { start: 0, end: finished.len() as u32, first_token: 0 }];
     for node in finished.iter().rev() {
-        while let Some((start, edge)) = edges.last()
-            && start == edge
+        while let Some(edge) = edges.last()
+            && edge.start == edge.end
         {
             edges.pop();
         }
-        let Some((_, edge)) = edges.last_mut() else { break };
-        let subtree_end = *edge;
+        let Some(edge) = edges.last_mut() else { break };
+        let subtree_end = edge.end;
         let id = subtree_end - node.size;
-        *edge = id;
-        nodes[id as usize] =
-            NodeData { first_token: node.first_token, end_token: node.end_token, subtree_end, kind: node.kind };
-        edges.push((id + 1, subtree_end));
+        edge.end = id;
+        // Only a node without tokens can stand before the first token of its parent.
+        let first_token = node.first_token.max(edge.first_token);
+        let end_token = node.end_token.max(first_token);
+        nodes[id as usize] = NodeData { first_token, end_token, subtree_end, kind: node.kind };
+        edges.push(Edge { start: id + 1, end: subtree_end, first_token });
     }
     if let Some(root) = nodes.first_mut() {
         root.first_token = 0;

@@ -1,1 +1,6 @@
 //! Tests of `syntax`.
+
+mod access;
+mod properties;
+mod recovery;
+mod zoo;

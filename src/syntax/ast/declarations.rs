@@ -1,6 +1,9 @@
-//! Files, POUs and their members, namespaces, types' blocks, configurations.
+//! Files, POUs, namespaces, blocks of types.
 
-use super::{AstNode, Body, Name, Path, Type, VarDecl, VarSection, ast_nodes, child, children, pragmas_before};
+use super::{
+    Actions, AstNode, Body, Configuration, Name, Path, Property, Resource, Transition, Type, VarDecl, VarSection,
+    ast_nodes, child, children, pragmas_before,
+};
 use crate::syntax::ast::Expression;
 use crate::syntax::kind::{NodeKind, TokenKind};
 use crate::syntax::tree::{Node, Token, Tree};
@@ -11,12 +14,6 @@ ast_nodes! {
     SourceFile = SourceFile;
     /// A program organisation unit, or a member that has a header, variables and a body like one.
     Pou = FunctionBlock | Function | Program | Class | Interface | OrganizationBlock | DataBlock | Method | Action;
-    /// A property.
-    Property = Property;
-    /// The `GET` or `SET` of a property.
-    Accessor = Accessor;
-    /// A transition: of a chart, or one that is declared by its name.
-    Transition = Transition;
     /// `NAMESPACE … END_NAMESPACE`.
     Namespace = Namespace;
     /// `USING a, b.c;`.
@@ -25,14 +22,6 @@ ast_nodes! {
     TypeBlock = TypeBlock;
     /// One type in it.
     TypeDecl = TypeDecl;
-    /// `CONFIGURATION … END_CONFIGURATION`.
-    Configuration = Configuration;
-    /// `RESOURCE … END_RESOURCE`.
-    Resource = Resource;
-    /// `TASK t(…);`.
-    Task = Task;
-    /// `PROGRAM p WITH t : P;`.
-    ProgramConfiguration = ProgramConfiguration;
 }
 
 /// Anything that stands in a file or in a namespace.
@@ -42,6 +31,8 @@ pub enum Declaration<'t> {
     Pou(Pou<'t>),
     /// A property that stands alone.
     Property(Property<'t>),
+    /// Actions of a POU, apart from it.
+    Actions(Actions<'t>),
     /// A transition that stands alone.
     Transition(Transition<'t>),
     /// A block of types.
@@ -65,14 +56,15 @@ impl<'t> Declaration<'t> {
     #[must_use]
     pub fn cast(node: Node<'t>) -> Option<Self> {
         Some(match node.kind() {
-            NodeKind::Property => Self::Property(Property(node)),
-            NodeKind::Transition => Self::Transition(Transition(node)),
+            NodeKind::Property => Self::Property(Property::cast(node)?),
+            NodeKind::Actions => Self::Actions(Actions::cast(node)?),
+            NodeKind::Transition => Self::Transition(Transition::cast(node)?),
             NodeKind::TypeBlock => Self::Types(TypeBlock(node)),
             NodeKind::VarSection => Self::Variables(VarSection::cast(node)?),
             NodeKind::Namespace => Self::Namespace(Namespace(node)),
             NodeKind::Using => Self::Using(Using(node)),
-            NodeKind::Configuration => Self::Configuration(Configuration(node)),
-            NodeKind::Resource => Self::Resource(Resource(node)),
+            NodeKind::Configuration => Self::Configuration(Configuration::cast(node)?),
+            NodeKind::Resource => Self::Resource(Resource::cast(node)?),
             NodeKind::Body => Self::Body(Body::cast(node)?),
             _ => Self::Pou(Pou::cast(node)?),
         })
@@ -84,6 +76,7 @@ impl<'t> Declaration<'t> {
         match self {
             Self::Pou(it) => it.node(),
             Self::Property(it) => it.node(),
+            Self::Actions(it) => it.node(),
             Self::Transition(it) => it.node(),
             Self::Types(it) => it.node(),
             Self::Variables(it) => it.node(),
@@ -180,7 +173,7 @@ impl Modifier {
     }
 }
 
-fn modifiers<'t>(node: Node<'t>) -> impl Iterator<Item = Modifier> + use<'t> {
+pub(super) fn modifiers<'t>(node: Node<'t>) -> impl Iterator<Item = Modifier> + use<'t> {
     node.own_tokens().filter_map(|token| Modifier::of(token.kind()))
 }
 
@@ -190,12 +183,12 @@ fn clause<'t>(node: Node<'t>, kind: NodeKind) -> impl Iterator<Item = Path<'t>> 
 }
 
 /// The type of a header, which stands before any section.
-fn header_type<'t>(node: Node<'t>) -> Option<Type<'t>> {
+pub(super) fn header_type<'t>(node: Node<'t>) -> Option<Type<'t>> {
     node.children().find_map(Type::cast)
 }
 
 /// The end of a header: where its first section, member or body begins, or the closing keyword.
-fn header_span(node: Node<'_>) -> Span {
+pub(super) fn header_span(node: Node<'_>) -> Span {
     let is_part = |kind: NodeKind| {
         matches!(kind, NodeKind::Name | NodeKind::ExtendsClause | NodeKind::ImplementsClause) || Type::is(kind)
     };
@@ -312,138 +305,6 @@ impl<'t> Pou<'t> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DataBlockType<'t>(pub Type<'t>);
 
-impl<'t> Property<'t> {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> Option<Name<'t>> {
-        child(self.0)
-    }
-
-    /// The words before its name.
-    pub fn modifiers(self) -> impl Iterator<Item = Modifier> {
-        modifiers(self.0)
-    }
-
-    /// Its type.
-    #[must_use]
-    pub fn type_(self) -> Option<Type<'t>> {
-        header_type(self.0)
-    }
-
-    /// From its first word to the end of its type.
-    #[must_use]
-    pub fn header_span(self) -> Span {
-        header_span(self.0)
-    }
-
-    /// Its accessors.
-    pub fn accessors(self) -> impl Iterator<Item = Accessor<'t>> {
-        children(self.0)
-    }
-
-    /// Whether it is a `PROPERTY_GET` or a `PROPERTY_SET`, whose body stands in itself.
-    #[must_use]
-    pub fn is_accessor(self) -> bool {
-        self.0.has_token(TokenKind::PropertyGet) || self.0.has_token(TokenKind::PropertySet)
-    }
-
-    /// Whether it can be read, as far as its text says.
-    #[must_use]
-    pub fn has_get(self) -> bool {
-        self.0.has_token(TokenKind::PropertyGet) || self.accessors().any(Accessor::is_get)
-    }
-
-    /// Whether it can be written, as far as its text says.
-    #[must_use]
-    pub fn has_set(self) -> bool {
-        self.0.has_token(TokenKind::PropertySet) || self.accessors().any(|accessor| !accessor.is_get())
-    }
-
-    /// Its own sections of variables.
-    pub fn var_sections(self) -> impl Iterator<Item = VarSection<'t>> {
-        children(self.0)
-    }
-
-    /// Its own body.
-    #[must_use]
-    pub fn body(self) -> Option<Body<'t>> {
-        child(self.0)
-    }
-
-    /// The pragmas right before it.
-    #[must_use]
-    pub fn pragmas(self) -> Vec<Token<'t>> {
-        pragmas_before(self.0)
-    }
-}
-
-impl<'t> Accessor<'t> {
-    /// Whether it is the `GET`.
-    #[must_use]
-    pub fn is_get(self) -> bool {
-        self.0.has_token(TokenKind::Get)
-    }
-
-    /// The words behind it.
-    pub fn modifiers(self) -> impl Iterator<Item = Modifier> {
-        modifiers(self.0)
-    }
-
-    /// Its sections of variables.
-    pub fn var_sections(self) -> impl Iterator<Item = VarSection<'t>> {
-        children(self.0)
-    }
-
-    /// Its body.
-    #[must_use]
-    pub fn body(self) -> Option<Body<'t>> {
-        child(self.0)
-    }
-}
-
-impl<'t> Transition<'t> {
-    /// Its name, which a chart's transition seldom has.
-    #[must_use]
-    pub fn name(self) -> Option<Name<'t>> {
-        child(self.0)
-    }
-
-    /// The steps that it comes from.
-    pub fn from(self) -> impl Iterator<Item = Name<'t>> {
-        self.steps(0)
-    }
-
-    /// The steps that it goes to.
-    pub fn to(self) -> impl Iterator<Item = Name<'t>> {
-        self.steps(1)
-    }
-
-    fn steps(self, n: usize) -> impl Iterator<Item = Name<'t>> {
-        let lists = self.0.children().filter(|child| child.kind() == NodeKind::StepNames);
-        lists.skip(n).take(1).flat_map(children)
-    }
-
-    /// Its priority.
-    #[must_use]
-    pub fn priority(self) -> Option<Expression<'t>> {
-        let list = self.0.child(NodeKind::ArgumentList)?;
-        let argument = list.child(NodeKind::Argument)?;
-        argument.children().find_map(Expression::cast)
-    }
-
-    /// Its condition, where it is an expression.
-    #[must_use]
-    pub fn condition(self) -> Option<Expression<'t>> {
-        self.0.children().find_map(Expression::cast)
-    }
-
-    /// Its condition, where it is a body.
-    #[must_use]
-    pub fn body(self) -> Option<Body<'t>> {
-        child(self.0)
-    }
-}
-
 impl<'t> Namespace<'t> {
     /// Its name, which may have dots.
     #[must_use]
@@ -515,96 +376,6 @@ impl<'t> TypeDecl<'t> {
     #[must_use]
     pub fn pragmas(self) -> Vec<Token<'t>> {
         pragmas_before(self.0)
-    }
-}
-
-impl<'t> Configuration<'t> {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> Option<Name<'t>> {
-        child(self.0)
-    }
-
-    /// Its resources.
-    pub fn resources(self) -> impl Iterator<Item = Resource<'t>> {
-        children(self.0)
-    }
-
-    /// Its tasks, where it has no resource.
-    pub fn tasks(self) -> impl Iterator<Item = Task<'t>> {
-        children(self.0)
-    }
-
-    /// Its programs, where it has no resource.
-    pub fn programs(self) -> impl Iterator<Item = ProgramConfiguration<'t>> {
-        children(self.0)
-    }
-
-    /// Its sections of variables.
-    pub fn var_sections(self) -> impl Iterator<Item = VarSection<'t>> {
-        children(self.0)
-    }
-}
-
-impl<'t> Resource<'t> {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> Option<Name<'t>> {
-        child(self.0)
-    }
-
-    /// What it runs on.
-    #[must_use]
-    pub fn on(self) -> Option<Path<'t>> {
-        child(self.0)
-    }
-
-    /// Its tasks.
-    pub fn tasks(self) -> impl Iterator<Item = Task<'t>> {
-        children(self.0)
-    }
-
-    /// Its programs.
-    pub fn programs(self) -> impl Iterator<Item = ProgramConfiguration<'t>> {
-        children(self.0)
-    }
-
-    /// Its sections of variables.
-    pub fn var_sections(self) -> impl Iterator<Item = VarSection<'t>> {
-        children(self.0)
-    }
-}
-
-impl<'t> Task<'t> {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> Option<Name<'t>> {
-        child(self.0)
-    }
-
-    /// Its settings: `INTERVAL`, `SINGLE`, `PRIORITY`.
-    pub fn arguments(self) -> impl Iterator<Item = super::Argument<'t>> {
-        self.0.children().filter(|child| child.kind() == NodeKind::ArgumentList).flat_map(children)
-    }
-}
-
-impl<'t> ProgramConfiguration<'t> {
-    /// The instance's name.
-    #[must_use]
-    pub fn name(self) -> Option<Name<'t>> {
-        child(self.0)
-    }
-
-    /// The task that runs it.
-    #[must_use]
-    pub fn task(self) -> Option<Name<'t>> {
-        self.0.has_token(TokenKind::With).then(|| children(self.0).nth(1)).flatten()
-    }
-
-    /// The program, with the connections of its variables as arguments.
-    #[must_use]
-    pub fn type_(self) -> Option<Type<'t>> {
-        self.0.children().find_map(Type::cast)
     }
 }
 

@@ -1,6 +1,9 @@
-//! Expressions and initial values.
+//! Expressions.
 
-use super::{Name, ast_nodes, child, children, is_expression, name_text, own_name};
+use super::{
+    AstNode, EnumLiteral, Initializer, Literal, Name, RepeatInitializer, ast_nodes, child, children, is_expression,
+    name_text, own_name,
+};
 use crate::syntax::kind::{NodeKind, TokenKind};
 use crate::syntax::tree::{Node, Token};
 use crate::text::Span;
@@ -24,16 +27,6 @@ ast_nodes! {
     BinaryExpression = BinaryExpression;
     /// `a := b` as an expression.
     AssignExpression = AssignExpression;
-    /// `1`, `INT#1`, `TRUE`, `'text'`, `T#1s`.
-    Literal = Literal;
-    /// `T#V`.
-    EnumLiteral = EnumLiteral;
-    /// `a..b`.
-    Range = Range;
-    /// `[…]` or `(a := …)`.
-    Initializer = ArrayInitializer | StructInitializer;
-    /// `3(0)`.
-    RepeatInitializer = RepeatInitializer;
 }
 
 /// Any expression; initial values are expressions too.
@@ -95,14 +88,14 @@ impl<'t> Expression<'t> {
             NodeKind::BinaryExpression => Self::Binary(BinaryExpression(node)),
             NodeKind::ParenExpression => Self::Paren(node),
             NodeKind::AssignExpression => Self::Assign(AssignExpression(node)),
-            NodeKind::Literal => Self::Literal(Literal(node)),
-            NodeKind::EnumLiteral => Self::EnumLiteral(EnumLiteral(node)),
+            NodeKind::Literal => Self::Literal(Literal::cast(node)?),
+            NodeKind::EnumLiteral => Self::EnumLiteral(EnumLiteral::cast(node)?),
             NodeKind::AddressExpression => Self::Address(node.own_token(TokenKind::Address)?, node),
             NodeKind::ThisExpression => Self::This(node),
             NodeKind::SuperExpression => Self::Super(node),
-            NodeKind::ArrayInitializer => Self::Array(Initializer(node)),
-            NodeKind::StructInitializer => Self::Struct(Initializer(node)),
-            NodeKind::RepeatInitializer => Self::Repeat(RepeatInitializer(node)),
+            NodeKind::ArrayInitializer => Self::Array(Initializer::cast(node)?),
+            NodeKind::StructInitializer => Self::Struct(Initializer::cast(node)?),
+            NodeKind::RepeatInitializer => Self::Repeat(RepeatInitializer::cast(node)?),
             _ => return None,
         })
     }
@@ -119,10 +112,10 @@ impl<'t> Expression<'t> {
             Self::Unary(it) => it.0,
             Self::Binary(it) => it.0,
             Self::Assign(it) => it.0,
-            Self::Literal(it) => it.0,
-            Self::EnumLiteral(it) => it.0,
-            Self::Array(it) | Self::Struct(it) => it.0,
-            Self::Repeat(it) => it.0,
+            Self::Literal(it) => it.node(),
+            Self::EnumLiteral(it) => it.node(),
+            Self::Array(it) | Self::Struct(it) => it.node(),
+            Self::Repeat(it) => it.node(),
             Self::Deref(node) | Self::Paren(node) | Self::Address(_, node) | Self::This(node) | Self::Super(node) => {
                 node
             }
@@ -158,7 +151,7 @@ impl<'t> Expression<'t> {
 }
 
 /// The `n`th expression among the children of `node`.
-fn operand<'t>(node: Node<'t>, n: usize) -> Option<Expression<'t>> {
+pub(super) fn operand<'t>(node: Node<'t>, n: usize) -> Option<Expression<'t>> {
     node.children().filter_map(Expression::cast).nth(n)
 }
 
@@ -417,90 +410,5 @@ impl<'t> AssignExpression<'t> {
     #[must_use]
     pub fn value(self) -> Option<Expression<'t>> {
         operand(self.0, 1)
-    }
-}
-
-impl<'t> Literal<'t> {
-    /// The type before `#`, where it is no literal of time: `INT` in `INT#5`.
-    #[must_use]
-    pub fn type_prefix(self) -> Option<&'t str> {
-        self.0.own_token(TokenKind::TypePrefix).map(|token| token.text().trim_end_matches('#'))
-    }
-
-    /// Whether a minus stands behind the type: `INT#-5`.
-    #[must_use]
-    pub fn is_negative(self) -> bool {
-        self.0.has_token(TokenKind::Minus)
-    }
-
-    /// The token of the value; its kind says what sort of literal it is.
-    #[must_use]
-    pub fn value(self) -> Option<Token<'t>> {
-        self.0.own_tokens().last()
-    }
-}
-
-impl<'t> EnumLiteral<'t> {
-    /// The enumeration's name, without a namespace.
-    #[must_use]
-    pub fn type_name(self) -> &'t str {
-        self.0.own_token(TokenKind::TypePrefix).map_or("", |token| token.text().trim_end_matches('#'))
-    }
-
-    /// The namespace before it.
-    #[must_use]
-    pub fn qualifier(self) -> Option<Expression<'t>> {
-        operand(self.0, 0)
-    }
-
-    /// The value's name.
-    #[must_use]
-    pub fn value(self) -> &'t str {
-        own_name(self.0).map_or("", name_text)
-    }
-
-    /// Where the value's name stands.
-    #[must_use]
-    pub fn value_span(self) -> Span {
-        own_name(self.0).map_or(Span::at(self.0.span().end), Token::span)
-    }
-}
-
-impl<'t> Range<'t> {
-    /// The lower end.
-    #[must_use]
-    pub fn low(self) -> Option<Expression<'t>> {
-        operand(self.0, 0)
-    }
-
-    /// The upper end.
-    #[must_use]
-    pub fn high(self) -> Option<Expression<'t>> {
-        operand(self.0, 1)
-    }
-}
-
-impl<'t> Initializer<'t> {
-    /// The elements of an array's initial value; values of a structure's that have no name.
-    pub fn elements(self) -> impl Iterator<Item = Expression<'t>> {
-        self.0.children().filter_map(Expression::cast)
-    }
-
-    /// The fields of a structure's initial value.
-    pub fn fields(self) -> impl Iterator<Item = Argument<'t>> {
-        children(self.0)
-    }
-}
-
-impl<'t> RepeatInitializer<'t> {
-    /// How often.
-    #[must_use]
-    pub fn count(self) -> Option<Expression<'t>> {
-        operand(self.0, 0)
-    }
-
-    /// What is repeated; nothing for `3()`.
-    pub fn values(self) -> impl Iterator<Item = Expression<'t>> {
-        self.0.children().filter_map(Expression::cast).skip(1)
     }
 }

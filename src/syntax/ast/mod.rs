@@ -4,27 +4,31 @@
 //! nothing, because any part of a construct may be missing in the text.
 
 mod body;
+mod configurations;
 mod declarations;
 mod expressions;
+mod members;
 mod statements;
 mod types;
+mod values;
 mod variables;
 
 pub use body::{ActionAssociation, Body, BodyItem, Instruction, InstructionList, Step};
+pub use configurations::{Configuration, ProgramConfiguration, Resource, Task};
 pub use declarations::{
-    Accessor, Configuration, DataBlockType, Declaration, Modifier, Namespace, Pou, PouKind, ProgramConfiguration,
-    Property, Resource, SourceFile, Task, Transition, TypeBlock, TypeDecl, Using,
+    DataBlockType, Declaration, Modifier, Namespace, Pou, PouKind, SourceFile, TypeBlock, TypeDecl, Using,
 };
 pub use expressions::{
     Argument, ArgumentKind, AssignExpression, BinaryExpression, BinaryOperator, BitExpression, CallExpression,
-    EnumLiteral, Expression, FieldExpression, IndexExpression, Initializer, Literal, NameExpression, Range,
-    RepeatInitializer, UnaryExpression, UnaryOperator,
+    Expression, FieldExpression, IndexExpression, NameExpression, UnaryExpression, UnaryOperator,
 };
+pub use members::{Accessor, Actions, Property, Transition};
 pub use statements::{
     AssignOperator, AssignStatement, CaseBranch, CaseStatement, CatchClause, ForStatement, IfBranch, IfStatement,
     LoopStatement, Statement, StatementList, TryStatement,
 };
 pub use types::{ArrayType, Dimension, EnumType, EnumValue, NamedType, StringType, StructType, SubrangeType, Type};
+pub use values::{EnumLiteral, Initializer, Literal, Range, RepeatInitializer};
 pub use variables::{Qualifier, SectionKind, VarDecl, VarSection};
 
 use super::kind::{NodeKind, TokenKind};

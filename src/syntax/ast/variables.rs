@@ -154,7 +154,7 @@ impl<'t> VarDecl<'t> {
         None
     }
 
-    /// The variable that stands behind `AT` in place of an address (Siemens).
+    /// The variable that stands behind `AT` in place of an address (Siemens), or that `VAR_ACCESS` gives access to.
     #[must_use]
     pub fn overlaid(self) -> Option<Expression<'t>> {
         self.0.child(NodeKind::Location)?.children().find_map(Expression::cast)

@@ -4,7 +4,7 @@ use super::super::kind::{NodeKind, TokenKind};
 use super::super::parser::Parser;
 use super::declarations::{close, semicolon};
 use super::names::{any_name, name, nth_is_name, path};
-use super::{DECLARATION_ENDS, expressions, skip_while, types, variables};
+use super::{DECLARATION_ENDS, error_token, expressions, skip_while, types, variables};
 
 /// `CONFIGURATION … END_CONFIGURATION`.
 pub(super) fn configuration(p: &mut Parser<'_>) {
@@ -40,7 +40,11 @@ fn parts(p: &mut Parser<'_>, end: TokenKind) {
                 _ if variables::opt_section(p) => {}
                 _ => {
                     p.expected("a resource, a task, a program or variables");
+                    let before = p.position();
                     skip_to_part(p);
+                    if p.position() == before {
+                        error_token(p);
+                    }
                 }
             }
         }

@@ -6,7 +6,7 @@
 use super::super::kind::{NodeKind, TokenKind};
 use super::super::parser::{Marker, Parser};
 use super::super::set::TokenSet;
-use super::names::{name, nth_is_name, path};
+use super::names::{any_name, bump_name, keyword_may_be_name, name, nth_is_name, path};
 use super::{
     DECLARATION_ENDS, STATEMENT_ENDS, VAR_KEYWORDS, configuration, error_token, il, sfc, siemens, statements, types,
     variables,
@@ -56,6 +56,7 @@ pub(super) fn declaration_at(p: &Parser<'_>) -> Option<NodeKind> {
         TokenKind::Method => NodeKind::Method,
         TokenKind::Property | TokenKind::PropertyGet | TokenKind::PropertySet => NodeKind::Property,
         TokenKind::Action => NodeKind::Action,
+        TokenKind::Actions => NodeKind::Actions,
         TokenKind::Transition if sfc::transition_follows(p) => return Some(NodeKind::Transition),
         TokenKind::Transition => NodeKind::Transition,
         TokenKind::Namespace => NodeKind::Namespace,
@@ -107,6 +108,7 @@ fn declaration(p: &mut Parser<'_>, kind: NodeKind) {
         NodeKind::Resource => configuration::resource(p),
         NodeKind::Property => property(p),
         NodeKind::Transition => sfc::transition(p),
+        NodeKind::Actions => actions(p),
         kind => pou(p, kind),
     }
 }
@@ -130,7 +132,12 @@ fn pou(p: &mut Parser<'_>, kind: NodeKind) {
     let marker = p.start();
     let end = end_of(kind);
     p.bump();
-    header(p);
+    if kind == NodeKind::Action {
+        action_name(p);
+        p.eat(TokenKind::Colon);
+    } else {
+        header(p);
+    }
     p.within(end, |p| members(p, kind, end));
     close(p, marker, end);
     p.complete(marker, kind);
@@ -148,13 +155,36 @@ pub(super) fn close(p: &mut Parser<'_>, marker: Marker, end: TokenKind) {
 /// Modifiers, the name, what it extends and implements, and the type of its result.
 fn header(p: &mut Parser<'_>) {
     modifiers(p);
-    name(p);
+    declared_name(p);
     clauses(p);
     if p.eat(TokenKind::Colon) && (types::at_type(p) || !p.begins_line()) {
         types::type_spec(p, types::Context::Result);
     }
     clauses(p);
     p.eat(TokenKind::Semicolon);
+}
+
+/// The name of a POU; libraries of operators declare even `AND`.
+fn declared_name(p: &mut Parser<'_>) {
+    if keyword_may_be_name(p.current()) && p.nth(1) == TokenKind::Colon {
+        any_name(p);
+    } else {
+        name(p);
+    }
+}
+
+/// The name of an action; one that stands apart from its POU may be `Pou.Action`.
+fn action_name(p: &mut Parser<'_>) {
+    if p.nth(1) != TokenKind::Dot {
+        return declared_name(p);
+    }
+    let marker = p.start();
+    bump_name(p);
+    while p.at(TokenKind::Dot) && nth_is_name(p, 1) {
+        p.bump();
+        bump_name(p);
+    }
+    p.complete(marker, NodeKind::Name);
 }
 
 const MODIFIERS: TokenSet = TokenSet::new(&[
@@ -227,9 +257,6 @@ fn member(p: &mut Parser<'_>, kind: NodeKind, end: TokenKind) {
         }
         return;
     }
-    if p.at(TokenKind::Actions) && nth_is_name(p, 1) {
-        return actions(p);
-    }
     if p.at_any(DECLARATION_ENDS) {
         // One that closes an outer declaration ends this one too; one that closes nothing is skipped.
         if p.current() != end {
@@ -240,10 +267,16 @@ fn member(p: &mut Parser<'_>, kind: NodeKind, end: TokenKind) {
     body(p);
 }
 
-/// `ACTIONS name … END_ACTIONS`: the actions of a block that was declared before.
+/// `ACTIONS pou … END_ACTIONS`: the actions of a POU that was declared before.
 fn actions(p: &mut Parser<'_>) {
+    let marker = p.start();
     p.bump();
-    name(p);
+    if !p.at(TokenKind::Action) || !nth_is_name(p, 1) {
+        name(p);
+    }
+    p.within(TokenKind::EndActions, |p| while declaration_at(p) == Some(NodeKind::Action) && opt_declaration(p) {});
+    close(p, marker, TokenKind::EndActions);
+    p.complete(marker, NodeKind::Actions);
 }
 
 /// Statements, steps or instructions.

@@ -87,6 +87,10 @@ fn binary(p: &mut Parser<'_>, above: u8) -> Option<Done> {
         }
         let marker = p.precede(left);
         p.bump();
+        if p.previous() == TokenKind::Equal && p.at(TokenKind::Equal) {
+            p.error_with_help("`==` is no operator", "write `=` to compare");
+            super::error_token(p);
+        }
         let right = binary(p, rank);
         let height = right.map_or(0, Done::height).max(left.height());
         left = p.finish(marker, NodeKind::BinaryExpression, height);
@@ -169,11 +173,8 @@ fn field(p: &mut Parser<'_>, marker: Marker, base: Done) -> Done {
 fn index(p: &mut Parser<'_>, marker: Marker, base: Done) -> Done {
     let mut height = base.height();
     p.bump();
-    loop {
-        match p.deeper(range_or_expression).flatten() {
-            Some(done) => height = height.max(done.height()),
-            None => break,
-        }
+    while let Some(done) = p.deeper(range_or_expression).flatten() {
+        height = height.max(done.height());
         if !p.eat(TokenKind::Comma) {
             break;
         }
@@ -374,12 +375,12 @@ pub(super) fn argument_list(p: &mut Parser<'_>) -> Done {
     p.finish(marker, NodeKind::ArgumentList, height)
 }
 
-/// `x`, `a := x`, `a :=`, `b => y`, `NOT b => y`; nothing between two commas.
+/// `x`, `a := x`, `a :=`, `b => y`, `NOT b => y`; an empty argument before a comma, which keeps its position.
 fn opt_argument(p: &mut Parser<'_>) -> Option<Done> {
-    if p.at(TokenKind::Comma) {
-        return None;
-    }
     let marker = p.start();
+    if p.at(TokenKind::Comma) {
+        return Some(p.finish(marker, NodeKind::Argument, 0));
+    }
     let negated = p.at(TokenKind::Not) && p.nth(2) == TokenKind::Arrow;
     if negated {
         p.bump();

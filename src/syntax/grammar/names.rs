@@ -11,6 +11,11 @@ pub(super) const fn is_name(kind: TokenKind) -> bool {
     matches!(kind, TokenKind::Ident | TokenKind::QuotedName | TokenKind::WString) || kind.is_soft_keyword()
 }
 
+/// Whether a keyword can be a name where what follows it shows that it is one.
+pub(super) const fn keyword_may_be_name(kind: TokenKind) -> bool {
+    kind.is_keyword() && !super::VAR_KEYWORDS.contains(kind) && !super::ENDS.contains(kind)
+}
+
 /// Whether a name begins `n` tokens on: a name, or `#` and a name.
 pub(super) fn nth_is_name(p: &Parser<'_>, n: u32) -> bool {
     is_name(p.nth(n)) || (p.nth(n) == TokenKind::Hash && is_name(p.nth(n + 1)))

@@ -80,7 +80,11 @@ pub(super) fn transition(p: &mut Parser<'_>) {
     p.within(TokenKind::EndTransition, |p| {
         if p.eat(TokenKind::Assign) {
             expression(p);
-            semicolon(p);
+            if !p.at(TokenKind::Semicolon) && !p.at(TokenKind::EndTransition) {
+                p.expected("`;`");
+                skip_while(p, |p| !p.at(TokenKind::Semicolon) && !p.at_any(DECLARATION_ENDS));
+            }
+            p.eat(TokenKind::Semicolon);
         } else {
             p.eat(TokenKind::Colon);
             body(p);

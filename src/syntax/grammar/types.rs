@@ -4,8 +4,8 @@
 use super::super::kind::{NodeKind, TokenKind};
 use super::super::parser::{Marker, Parser};
 use super::declarations::{declaration_at, modifiers};
-use super::names::{any_name, is_name, name, nth_is_name, opt_path, path};
-use super::{DECLARATION_ENDS, error_token, expressions, initializers, siemens, skip_while, variables};
+use super::names::{any_name, is_name, keyword_may_be_name, name, nth_is_name, opt_path, path};
+use super::{DECLARATION_ENDS, VAR_KEYWORDS, error_token, expressions, initializers, siemens, skip_while, variables};
 
 /// Where a type stands: it decides what parentheses behind a name mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,10 @@ fn type_declarations(p: &mut Parser<'_>) {
         if p.eat(TokenKind::Semicolon) {
             continue;
         }
-        if nth_is_name(p, 0) || (p.current().is_keyword() && p.nth(1) == TokenKind::Colon) {
+        if nth_is_name(p, 0)
+            || p.at(TokenKind::Colon)
+            || (keyword_may_be_name(p.current()) && p.nth(1) == TokenKind::Colon)
+        {
             type_declaration(p);
         } else {
             p.expected("the name of a type");
@@ -49,19 +52,25 @@ fn type_declarations(p: &mut Parser<'_>) {
     }
 }
 
+/// Whether the block must have ended: something is closed that is open, or something else begins.
 fn at_end(p: &Parser<'_>) -> bool {
-    let kind = p.current();
-    kind == TokenKind::Eof
-        || DECLARATION_ENDS.contains(kind)
-        || super::VAR_KEYWORDS.contains(kind)
-        || (kind.is_keyword() && p.nth(1) != TokenKind::Colon && declaration_at(p).is_some())
+    match p.current() {
+        TokenKind::Eof => true,
+        kind if !kind.is_keyword() => false,
+        kind if DECLARATION_ENDS.contains(kind) => p.is_open(kind),
+        kind => VAR_KEYWORDS.contains(kind) || (p.nth(1) != TokenKind::Colon && declaration_at(p).is_some()),
+    }
 }
 
 /// `name EXTENDS base : type := value;`
 fn type_declaration(p: &mut Parser<'_>) {
     let marker = p.start();
     modifiers(p);
-    any_name(p);
+    if p.at(TokenKind::Colon) {
+        p.expected("the name of a type");
+    } else {
+        any_name(p);
+    }
     if p.at(TokenKind::Extends) {
         let extends = p.start();
         p.bump();
@@ -72,10 +81,14 @@ fn type_declaration(p: &mut Parser<'_>) {
         p.complete(extends, NodeKind::ExtendsClause);
     }
     siemens::block_properties(p);
-    if p.eat(TokenKind::Colon) || p.at(TokenKind::Struct) {
+    // Siemens writes no colon before a structure.
+    if !p.eat(TokenKind::Colon) && !p.at(TokenKind::Struct) {
+        p.expected("`:` and a type");
+    }
+    if at_type(p) {
         type_spec(p, Context::Declaration);
     } else {
-        p.expected("`:` and a type");
+        p.expected("a type");
     }
     if p.eat(TokenKind::Assign) {
         initializers::initial_value(p);
@@ -96,14 +109,16 @@ fn end(p: &mut Parser<'_>) {
     recover(p);
 }
 
+/// Skips to behind the next `;`, or to where a declaration begins: on a new line, or, where nothing has been read
+/// of one yet, anywhere.
 fn recover(p: &mut Parser<'_>) {
     let start = p.position();
+    let stuck = matches!(p.previous(), TokenKind::Type | TokenKind::Semicolon);
     skip_while(p, |p| {
-        let next = p.position() > start && p.begins_line() && nth_is_name(p, 0) && p.nth(1) == TokenKind::Colon;
-        !p.at(TokenKind::Semicolon) && !at_end(p) && !next
+        let begins = p.position() > start && nth_is_name(p, 0) && p.nth(1) == TokenKind::Colon;
+        !p.at(TokenKind::Semicolon) && !at_end(p) && !(begins && (stuck || p.begins_line()))
     });
-    let stuck = p.position() == start;
-    if !p.eat(TokenKind::Semicolon) && stuck && !at_end(p) {
+    if !p.eat(TokenKind::Semicolon) && p.position() == start && !at_end(p) {
         error_token(p);
     }
 }
@@ -163,7 +178,13 @@ fn array(p: &mut Parser<'_>, context: Context) {
         }
         p.expect(TokenKind::RBracket);
     }
-    p.expect(TokenKind::Of);
+    if !p.at(TokenKind::Of) {
+        p.expected(TokenKind::Of.describe());
+        skip_while(p, |p| {
+            !matches!(p.current(), TokenKind::Of | TokenKind::Semicolon) && !p.begins_line() && !at_end(p)
+        });
+    }
+    p.eat(TokenKind::Of);
     type_spec(p, context);
     p.complete(marker, NodeKind::ArrayType);
 }

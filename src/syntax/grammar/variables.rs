@@ -7,7 +7,7 @@ use super::super::kind::{NodeKind, TokenKind};
 use super::super::parser::Parser;
 use super::super::set::TokenSet;
 use super::declarations::declaration_at;
-use super::names::{any_name, bump_name, is_name};
+use super::names::{any_name, bump_name, is_name, keyword_may_be_name};
 use super::{DECLARATION_ENDS, VAR_KEYWORDS, initializers, skip_while, types};
 
 const SECTION_MODIFIERS: TokenSet = TokenSet::new(&[
@@ -27,6 +27,7 @@ pub(super) fn opt_section(p: &mut Parser<'_>) -> bool {
         return false;
     }
     let marker = p.start();
+    let section = p.current();
     p.bump();
     while p.at_any(SECTION_MODIFIERS) && !declares(p, 1) {
         p.bump();
@@ -35,7 +36,8 @@ pub(super) fn opt_section(p: &mut Parser<'_>) -> bool {
     if p.nth_is_word(0, "DB_SPECIFIC") {
         p.bump();
     }
-    p.within(TokenKind::EndVar, |p| variables(p, NodeKind::VarDecl));
+    // What a section of access paths declares looks different; `VAR_ACCESS` counts as open while it is read.
+    p.within(section, |p| p.within(TokenKind::EndVar, |p| variables(p, NodeKind::VarDecl)));
     if p.eat(TokenKind::EndVar) {
         p.eat(TokenKind::Semicolon);
     } else {
@@ -66,19 +68,22 @@ pub(super) fn variables(p: &mut Parser<'_>, kind: NodeKind) {
     }
 }
 
+/// Whether the section must have ended: something is closed that is open, or something else begins.
 fn at_end(p: &Parser<'_>) -> bool {
-    let kind = p.current();
-    match kind {
+    match p.current() {
         TokenKind::Eof => true,
         kind if !kind.is_keyword() => false,
-        _ if declares(p, 1) => false,
-        kind => DECLARATION_ENDS.contains(kind) || VAR_KEYWORDS.contains(kind) || declaration_at(p).is_some(),
+        kind if DECLARATION_ENDS.contains(kind) => p.is_open(kind),
+        kind => VAR_KEYWORDS.contains(kind) || (!declares(p, 1) && declaration_at(p).is_some()),
     }
 }
 
 fn at_declared_name(p: &Parser<'_>) -> bool {
+    if p.at(TokenKind::At) && p.nth(1) == TokenKind::Address {
+        return true;
+    }
     let n = u32::from(p.at(TokenKind::Hash));
-    is_name(p.nth(n)) || (p.nth(n).is_keyword() && declares(p, n + 1))
+    is_name(p.nth(n)) || (keyword_may_be_name(p.nth(n)) && declares(p, n + 1))
 }
 
 /// `a, b AT %I* : T := x;`
@@ -87,10 +92,15 @@ fn variable(p: &mut Parser<'_>, kind: NodeKind) {
     names(p);
     if p.eat(TokenKind::Colon) {
         opt_location(p);
+        opt_access_path(p);
         types::type_spec(p, types::Context::Variable);
         suffixes(p);
     } else {
         p.expected("`:` and a type");
+        if types::at_type(p) && !p.begins_line() {
+            types::type_spec(p, types::Context::Variable);
+            suffixes(p);
+        }
     }
     end(p);
     p.complete(marker, kind);
@@ -98,7 +108,10 @@ fn variable(p: &mut Parser<'_>, kind: NodeKind) {
 
 fn names(p: &mut Parser<'_>) {
     loop {
-        declared_name(p);
+        // A variable may have an address and no name.
+        if !(p.at(TokenKind::At) && p.nth(1) == TokenKind::Address) {
+            declared_name(p);
+        }
         opt_location(p);
         if !p.eat(TokenKind::Comma) {
             return;
@@ -151,6 +164,17 @@ fn opt_location(p: &mut Parser<'_>) {
     p.complete(marker, NodeKind::Location);
 }
 
+/// What a name in `VAR_ACCESS` gives access to, up to the colon before its type: `station.%IX1.1 :`.
+fn opt_access_path(p: &mut Parser<'_>) {
+    if !p.is_open(TokenKind::VarAccess) {
+        return;
+    }
+    let marker = p.start();
+    super::expressions::variable(p);
+    p.complete(marker, NodeKind::Location);
+    p.expect(TokenKind::Colon);
+}
+
 /// What follows the type: edges, the initial value, the access of `VAR_ACCESS`.
 fn suffixes(p: &mut Parser<'_>) {
     const FLAGS: TokenSet = TokenSet::new(&[
@@ -181,7 +205,7 @@ fn suffixes(p: &mut Parser<'_>) {
 
 /// The `;`. Where the next declaration or the section's end follows, its lack costs nothing.
 fn end(p: &mut Parser<'_>) {
-    if p.eat(TokenKind::Semicolon) {
+    if p.eat(TokenKind::Semicolon) || matches!(p.previous(), TokenKind::EndStruct | TokenKind::EndUnion) {
         return;
     }
     if at_end(p) || (p.begins_line() && at_declared_name(p) && declares(p, 1)) {
@@ -191,17 +215,15 @@ fn end(p: &mut Parser<'_>) {
     recover(p, false);
 }
 
-/// Skips to behind the next `;`, or to the next line that looks like a declaration.
-fn recover(p: &mut Parser<'_>, mut stuck: bool) {
+/// Skips to behind the next `;`, or to where a declaration begins: on a new line, or, where nothing has been read
+/// of one yet (it is `stuck`), anywhere.
+fn recover(p: &mut Parser<'_>, stuck: bool) {
     let start = p.position();
     skip_while(p, |p| {
-        let moved = p.position() > start || !stuck;
-        !p.at(TokenKind::Semicolon)
-            && !at_end(p)
-            && !(moved && p.begins_line() && at_declared_name(p) && declares(p, 1))
+        let moved = p.position() > start;
+        let begins = (moved || !stuck) && at_declared_name(p) && declares(p, 1);
+        let next = begins && (stuck || p.begins_line());
+        (stuck && !moved) || !(next || p.at(TokenKind::Semicolon) || at_end(p))
     });
-    stuck = p.position() == start;
-    if !p.eat(TokenKind::Semicolon) && stuck && !at_end(p) {
-        super::error_token(p);
-    }
+    p.eat(TokenKind::Semicolon);
 }
