@@ -4,14 +4,17 @@
 //! answers (its output columns, assertions), for how long. After Weigl et al., *Generalized Test Tables* (INDIN 2017)
 //! and Beckert et al., *Generalised Test Tables* (iFM 2017).
 
+pub mod automaton;
 pub mod cell;
 pub mod codes;
 pub mod duration;
+pub mod eval;
 pub mod layout;
 pub mod model;
 mod near;
 pub mod piece;
 pub mod read;
+pub mod run;
 
 pub use model::Table;
 pub use piece::Piece;
