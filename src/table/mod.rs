@@ -5,14 +5,17 @@
 //! and Beckert et al., *Generalised Test Tables* (iFM 2017).
 
 pub mod attach;
+pub mod automaton;
 pub mod cell;
 pub mod codes;
 pub mod duration;
+pub mod eval;
 pub mod layout;
 pub mod model;
 mod near;
 pub mod piece;
 pub mod read;
+pub mod run;
 
 pub use attach::{AttachedTable, TableError};
 pub use model::Table;

@@ -1,5 +1,6 @@
 //! Tests of `table`.
 
+mod automaton;
 mod cells;
 mod corpora;
 mod gtt;

@@ -61,8 +61,8 @@ fn space(rest: &str) -> Option<usize> {
     if rest.starts_with("//") {
         return Some(rest.find(['\n', '\r']).unwrap_or(rest.len()));
     }
-    if rest.starts_with("/*") {
-        return Some(rest[2..].find("*/").map_or(rest.len(), |end| end + 4));
+    if let Some(inner) = rest.strip_prefix("/*") {
+        return Some(inner.find("*/").map_or(rest.len(), |end| end + 4));
     }
     let len = rest.len() - rest.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').len();
     (len > 0).then_some(len)

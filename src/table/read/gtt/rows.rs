@@ -54,14 +54,14 @@ impl<'p> Reader<'_, 'p> {
                 }
             } else {
                 self.unexpected(builder, "`row` or `group`");
-                self.to_next_row()?;
+                self.find_next_row()?;
             }
         }
         Ok(children)
     }
 
     /// Steps to the next row or group of the same group, or to its end.
-    fn to_next_row(&mut self) -> Result<()> {
+    fn find_next_row(&mut self) -> Result<()> {
         while !self.end() && !self.is("row") && !self.is("group") && !self.is("}") {
             if self.is("{") { self.skip_braces() } else { self.at += 1 }
         }
