@@ -66,11 +66,14 @@ struct Mark<'t> {
     span: Span,
 }
 
+/// No mark that matters is longer.
+const LONGEST_MARK: usize = 1000;
+
 fn marks(text: &str) -> impl Iterator<Item = Mark<'_>> {
     text.match_indices("(* @").filter_map(move |(start, opening)| {
         let at_line_start = start == 0 || text[..start].ends_with(['\n', '\r']);
         let inner = &text[start + opening.len()..];
-        let end = inner.find("*)")?;
+        let end = inner[..inner.floor_char_boundary(LONGEST_MARK)].find("*)")?;
         let (key, value) = inner[..end].split_once(":=").filter(|_| at_line_start)?;
         let value = value.trim().trim_matches('\'');
         Some(Mark { key: key.trim(), value, span: Span::from(start..start + opening.len() + end + 2) })
@@ -167,6 +170,9 @@ impl Reader<'_> {
         let end = self.line_with(rest, &ends).map_or(rest, |line| line);
         let (code, after) = if end == rest { (rest, rest.end) } else { (Span::new(rest.start, end.start), end.start) };
         object.body = self.body(code);
+        if matches!(object.body, Body::Il(_)) {
+            object.properties.push(("language_guessed".to_owned(), "IL".to_owned()));
+        }
         after
     }
 

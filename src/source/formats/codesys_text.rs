@@ -39,7 +39,9 @@ impl Format for CodesysText {
 fn divisions(text: &str) -> impl Iterator<Item = (&str, Span)> {
     text.match_indices("(*#-#-").filter_map(move |(start, _)| {
         let rest = &text[start..];
-        let comment = &rest[..rest.find("#*)")? + 3];
+        // Such a comment is one short line.
+        let line = &rest[..rest.floor_char_boundary(200)];
+        let comment = &rest[..line.find("#*)")? + 3];
         let what = comment.split("---").nth(1)?;
         let after = &rest[comment.len()..];
         let line_end = if after.starts_with("\r\n") { 2 } else { usize::from(after.starts_with('\n')) };

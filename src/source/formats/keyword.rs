@@ -49,13 +49,19 @@ pub(super) fn leading(text: &str) -> Option<Leading> {
 
 /// The place behind white space, comments and pragmas from `at` on.
 pub(super) fn skip_trivia(text: &str, mut at: usize) -> usize {
+    // Comments nest until one does not close so; then none of the text does.
+    let mut nests = true;
     loop {
         let rest = &text[at..];
         let trimmed = rest.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{FEFF}');
         at = text.len() - trimmed.len();
         let length = match trimmed.as_bytes() {
             [b'/', b'/', ..] => trimmed.find('\n').unwrap_or(trimmed.len()),
-            [b'(', b'*', ..] => block(trimmed),
+            [b'(', b'*', ..] => {
+                let nested = if nests { block(trimmed) } else { None };
+                nests = nested.is_some();
+                nested.unwrap_or_else(|| trimmed.find("*)").map_or(trimmed.len(), |end| end + 2))
+            }
             [b'/', b'*', ..] => trimmed.find("*/").map_or(trimmed.len(), |end| end + 2),
             [b'{', ..] => trimmed.find('}').map_or(trimmed.len(), |end| end + 1),
             _ => return at,
@@ -64,8 +70,8 @@ pub(super) fn skip_trivia(text: &str, mut at: usize) -> usize {
     }
 }
 
-/// The length of the comment at the start of `text`: as far as it nests, or up to the first `*)` if it does not close so.
-fn block(text: &str) -> usize {
+/// The length of the comment at the start of `text`, if it closes as comments that nest do.
+fn block(text: &str) -> Option<usize> {
     let bytes = text.as_bytes();
     let (mut depth, mut at) = (0_u32, 0);
     while at + 1 < bytes.len() {
@@ -78,13 +84,13 @@ fn block(text: &str) -> usize {
                 depth = depth.saturating_sub(1);
                 at += 2;
                 if depth == 0 {
-                    return at;
+                    return Some(at);
                 }
             }
             _ => at += 1,
         }
     }
-    text.find("*)").map_or(text.len(), |end| end + 2)
+    None
 }
 
 /// The word, or the name in `"…"`, at `at`; empty if there is none.

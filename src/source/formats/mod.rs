@@ -68,11 +68,7 @@ impl Input<'_> {
     /// The beginning of the text, where signatures stand.
     #[must_use]
     pub fn head(&self) -> &str {
-        let mut end = self.text.len().min(4096);
-        while !self.text.is_char_boundary(end) {
-            end -= 1;
-        }
-        &self.text[..end]
+        &self.text[..self.text.floor_char_boundary(4096)]
     }
 }
 

@@ -32,7 +32,7 @@ impl Format for PlcOpen {
 
     fn unwrap(&self, input: &Input<'_>) -> Unwrapped {
         let xml = Xml::parse(input.text, &[]);
-        let folders = folders(xml.document());
+        let folders = Folders::new(xml.document());
         let mut objects = Vec::new();
         collect(xml.document(), &folders, &mut objects);
         let mut notes = xml_notes(&xml);
@@ -75,35 +75,48 @@ fn project(root: Element<'_>, path: &str) -> Option<Draft> {
     Some(draft)
 }
 
-/// The folders of the objects, by the objects' identity; CODESYS adds them at the end of the file.
-fn folders(root: Element<'_>) -> BTreeMap<String, Vec<String>> {
-    fn enter(element: Element<'_>, path: &[String], out: &mut BTreeMap<String, Vec<String>>) {
-        for child in element.children() {
-            let mut path = path.to_vec();
-            match child.name() {
-                "Folder" => path.extend(child.value("Name")),
-                "Object" => {
-                    if let Some(id) = child.value("ObjectId") {
-                        out.insert(id, path.clone());
-                    }
-                }
-                _ => {}
-            }
-            enter(child, &path, out);
-        }
-    }
-    let mut out = BTreeMap::new();
-    for structure in root.descendants().filter(|element| element.name() == "ProjectStructure") {
-        enter(structure, &[], &mut out);
-    }
-    out
+/// The folders of the objects; CODESYS adds them at the end of the file.
+#[derive(Default)]
+struct Folders {
+    paths: Vec<Vec<String>>,
+    by_identity: BTreeMap<String, usize>,
 }
 
-fn collect(element: Element<'_>, folders: &BTreeMap<String, Vec<String>>, objects: &mut Vec<Object>) {
+impl Folders {
+    fn new(root: Element<'_>) -> Self {
+        let mut folders = Self::default();
+        for structure in root.descendants().filter(|element| element.name() == "ProjectStructure") {
+            folders.enter(structure, Vec::new());
+        }
+        folders
+    }
+
+    fn enter(&mut self, element: Element<'_>, path: Vec<String>) {
+        let here = self.paths.len();
+        self.paths.push(path);
+        for child in element.children() {
+            if let Some(identity) = child.value("ObjectId").filter(|_| child.name() == "Object") {
+                self.by_identity.insert(identity, here);
+            }
+            if child.children().next().is_some() {
+                let mut inner = self.paths[here].clone();
+                inner.extend(child.value("Name").filter(|_| child.name() == "Folder"));
+                self.enter(child, inner);
+            }
+        }
+    }
+
+    fn of(&self, element: Element<'_>) -> Vec<String> {
+        let found = id(element).and_then(|identity| self.by_identity.get(&identity));
+        found.map_or_else(Vec::new, |path| self.paths[*path].clone())
+    }
+}
+
+fn collect(element: Element<'_>, folders: &Folders, objects: &mut Vec<Object>) {
     for child in element.children() {
         match top(child) {
             Some(mut object) => {
-                object.folder = id(child).and_then(|id| folders.get(&id)).cloned().unwrap_or_default();
+                object.folder = folders.of(child);
                 objects.push(object);
             }
             None => collect(child, folders, objects),

@@ -22,6 +22,9 @@ pub(crate) const MAX_DEPTH: usize = 200;
 /// A file may hold so many elements.
 pub(crate) const MAX_NODES: usize = 4_000_000;
 
+/// So many problems are kept; nobody reads more.
+pub(crate) const MAX_PROBLEMS: usize = 1000;
+
 /// What is wrong with the XML.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Problem {
@@ -32,9 +35,9 @@ pub(crate) struct Problem {
 }
 
 impl Problem {
-    /// Adds a problem to `problems`, up to a number that nobody reads to the end.
+    /// Adds a problem to `problems`, up to [`MAX_PROBLEMS`].
     fn add(problems: &mut Vec<Self>, span: Span, message: impl Into<String>) {
-        if problems.len() < 1000 {
+        if problems.len() < MAX_PROBLEMS {
             problems.push(Self { span, message: message.into(), doctype: false });
         }
     }

@@ -103,6 +103,9 @@ impl<'t> Scanner<'t> {
     pub(super) fn check_references(&mut self, span: Span) {
         let text = span.of(self.text);
         for (at, _) in text.match_indices('&') {
+            if self.problems.len() >= super::MAX_PROBLEMS {
+                return;
+            }
             if super::text::reference(&text[at..]).is_none() {
                 let here = span.start + u32::try_from(at).unwrap_or(0);
                 self.problem(Span::new(here, here + 1), "`&` begins no character of XML; it is kept as it stands");

@@ -20,21 +20,13 @@ pub(super) fn character_data(text: &str, span: Span, out: &mut FragmentBuilder) 
 /// Adds the characters of `span`, with the entities of XML replaced, to `out`.
 pub(super) fn decoded(text: &str, span: Span, out: &mut FragmentBuilder) {
     let mut at = span.start;
-    while let Some(found) = Span::new(at, span.end).of(text).find('&') {
-        let and = at + super::scan::index(found);
+    for (found, _) in span.of(text).match_indices('&') {
+        let and = span.start + super::scan::index(found);
+        let Some((character, length)) = reference(Span::new(and, span.end).of(text)) else { continue };
+        let end = and + super::scan::index(length);
         out.verbatim(text, Span::new(at, and));
-        let rest = Span::new(and, span.end).of(text);
-        match reference(rest) {
-            Some((character, length)) => {
-                let end = and + super::scan::index(length);
-                out.standing_for(character.encode_utf8(&mut [0; 4]), Span::new(and, end));
-                at = end;
-            }
-            None => {
-                out.verbatim(text, Span::new(and, and + 1));
-                at = and + 1;
-            }
-        }
+        out.standing_for(character.encode_utf8(&mut [0; 4]), Span::new(and, end));
+        at = end;
     }
     out.verbatim(text, Span::new(at, span.end));
 }

@@ -2,6 +2,7 @@
 
 mod codes;
 mod codesys;
+mod corpus;
 mod disk;
 mod others;
 mod plain;
