@@ -35,6 +35,7 @@ pub struct Settings {
     /// Whether `build` writes the PDF.
     pub pdf: bool,
     /// How the PDF is made.
+    #[cfg_attr(not(feature = "pdf"), expect(dead_code, reason = "only the PDF renderer reads it"))]
     pdf_section: PdfSection,
 }
 

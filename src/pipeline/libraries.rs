@@ -51,5 +51,6 @@ const fn format(kind: ProjectKind) -> &'static str {
         ProjectKind::AutomationStudio => "Automation Studio project",
         ProjectKind::AutomationStudioLibrary => "Automation Studio library",
         ProjectKind::AutomationStudioProgram => "Automation Studio program",
+        ProjectKind::PlcOpen => "PLCopen XML project",
     }
 }

@@ -146,10 +146,9 @@ fn no_header_is_lost() {
                 found += 1;
                 let kinds = KEYWORDS.iter().find(|(word, _)| *word == keyword).expect("a keyword").1;
                 let file = path.to_lowercase();
-                let entity = kinds.iter().find_map(|kind| {
-                    entities.get_mut(&(format!("{file} {kind}"), name.clone())).filter(|count| **count > 0)
-                });
-                match entity {
+                let keys = kinds.iter().map(|kind| (format!("{file} {kind}"), name.clone()));
+                let key = keys.into_iter().find(|key| entities.get(key).is_some_and(|count| *count > 0));
+                match key.and_then(|key| entities.get_mut(&key)) {
                     Some(count) => *count -= 1,
                     None => lost.push(format!("{path}: {keyword} {name}")),
                 }

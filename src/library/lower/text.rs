@@ -1,9 +1,11 @@
 //! Texts that hold any number of declarations.
 
 use super::Lowering;
-use crate::library::{FragmentId, ItemId, ItemKind};
+use crate::library::{FragmentId, Item, ItemId, ItemKind};
 use crate::syntax::Tree;
-use crate::syntax::ast::{AstNode, Configuration, Declaration, Resource, SourceFile, Task, VarSection};
+use crate::syntax::ast::{
+    AstNode, Configuration, Declaration, Name, Namespace, PouKind, Resource, SourceFile, Task, VarSection,
+};
 
 impl Lowering<'_> {
     /// What stands in a text: all of its declarations, in order. Gives the first item.
@@ -22,35 +24,71 @@ impl Lowering<'_> {
         let mut first = None;
         let mut bare: Vec<VarSection<'_>> = Vec::new();
         for declaration in declarations {
-            let added = match declaration {
-                Declaration::Pou(pou) => self.pou(tree, fragment, *pou, None),
-                Declaration::Property(property) => self.property(tree, fragment, *property, None),
-                Declaration::Transition(transition) => self.transition(tree, fragment, *transition, None),
-                Declaration::Types(block) => self.types(tree, fragment, *block).first().copied(),
-                Declaration::Variables(section) => {
-                    bare.push(*section);
-                    None
-                }
-                Declaration::Namespace(namespace) => {
-                    let parts: Vec<String> = namespace
-                        .path()
-                        .into_iter()
-                        .flat_map(|path| path.segments().map(|s| s.text.to_owned()).collect::<Vec<_>>())
-                        .collect();
-                    let depth = self.namespace.len();
-                    self.namespace.extend(parts);
-                    let inner: Vec<Declaration<'_>> = namespace.declarations().collect();
-                    let added = self.declarations(tree, fragment, &inner, name);
-                    self.namespace.truncate(depth);
-                    added
-                }
-                Declaration::Configuration(configuration) => self.configuration(tree, fragment, *configuration),
-                Declaration::Resource(resource) => self.resource(tree, fragment, *resource),
-                Declaration::Using(_) | Declaration::Body(_) => None,
-            };
+            if let Declaration::Variables(section) = declaration {
+                bare.push(*section);
+            }
+            let added = self.declaration_of(tree, fragment, *declaration, name);
             first = first.or(added);
         }
-        first.or(self.globals(tree, fragment, name, &bare))
+        let globals = self.globals(tree, fragment, name, &bare);
+        first.or(globals)
+    }
+
+    fn declaration_of(
+        &mut self,
+        tree: &Tree,
+        fragment: FragmentId,
+        declaration: Declaration<'_>,
+        name: &str,
+    ) -> Option<ItemId> {
+        match declaration {
+            Declaration::Pou(pou) => {
+                let parent = if pou.kind() == PouKind::Action { self.owner(None) } else { None };
+                self.pou(tree, fragment, pou, parent)
+            }
+            Declaration::Property(property) => self.property(tree, fragment, property, None),
+            Declaration::Actions(actions) => {
+                let parent = self.owner(actions.pou().map(Name::text));
+                let added = actions.actions().filter_map(|action| self.pou(tree, fragment, action, parent));
+                added.collect::<Vec<_>>().first().copied()
+            }
+            Declaration::Transition(transition) => {
+                let parent = self.owner(None);
+                self.transition(tree, fragment, transition, parent)
+            }
+            Declaration::Types(block) => self.types(tree, fragment, block).first().copied(),
+            Declaration::Namespace(namespace) => self.namespace(tree, fragment, namespace, name),
+            Declaration::Configuration(configuration) => self.configuration(tree, fragment, configuration),
+            Declaration::Resource(resource) => self.resource(tree, fragment, resource),
+            Declaration::Variables(_) | Declaration::Using(_) | Declaration::Body(_) => None,
+        }
+    }
+
+    /// The block of this unit that a member standing alone belongs to: the one called `name`, or the last one.
+    fn owner(&self, name: Option<&str>) -> Option<ItemId> {
+        let blocks = [ItemKind::FunctionBlock, ItemKind::Program, ItemKind::Function, ItemKind::Class];
+        let fits = |item: &Item| {
+            let called = name.is_none_or(|name| item.name.eq_ignore_ascii_case(name));
+            item.parent.is_none() && blocks.contains(&item.kind) && called
+        };
+        self.items.iter().rposition(fits).map(|i| ItemId(super::count(i)))
+    }
+
+    fn namespace(
+        &mut self,
+        tree: &Tree,
+        fragment: FragmentId,
+        namespace: Namespace<'_>,
+        name: &str,
+    ) -> Option<ItemId> {
+        let depth = self.namespace.len();
+        if let Some(path) = namespace.path() {
+            self.namespace.extend(path.segments().map(|segment| segment.text.to_owned()));
+        }
+        let inner: Vec<Declaration<'_>> = namespace.declarations().collect();
+        let added = self.declarations(tree, fragment, &inner, name);
+        self.namespace.truncate(depth);
+        added
     }
 
     fn configuration(&mut self, tree: &Tree, fragment: FragmentId, from: Configuration<'_>) -> Option<ItemId> {
