@@ -42,6 +42,12 @@ impl<'t> Run<'t> {
         self.game.live().into_iter().map(|leaf| self.automaton.leaves[leaf].row).collect()
     }
 
+    /// How many ranges of counts the live tokens take.
+    #[must_use]
+    pub fn weight(&self) -> usize {
+        self.game.weight()
+    }
+
     /// Whether the global variables satisfy what they are declared with.
     #[must_use]
     pub fn globals_fit(&self) -> bool {

@@ -136,7 +136,7 @@ impl Unroller {
 
     fn block(&mut self, tau: Tau, flag: bool, children: &[Tree], path: &[usize]) -> Result<Words, TooMany> {
         let (rows, flagged) = (self.facts.rows.len(), self.flagged.len());
-        let mut iteration = |me: &mut Self, number: usize| {
+        let iteration = |me: &mut Self, number: usize| {
             // The rows of a block have the same numbers in each of its iterations.
             me.facts.rows.truncate(rows);
             me.flagged.truncate(flagged);
@@ -356,7 +356,10 @@ fn letters() -> impl Strategy<Value = Letters> {
     (pair(), pair()).prop_map(|(inputs, outputs)| [inputs, outputs])
 }
 
-fn case() -> impl Strategy<Value = (Vec<Tree>, Vec<Letters>, Vec<Vec<(u8, u8)>>)> {
+/// A table, the constraints of its rows, and some runs.
+type Case = (Vec<Tree>, Vec<Letters>, Vec<Vec<(u8, u8)>>);
+
+fn case() -> impl Strategy<Value = Case> {
     trees().prop_flat_map(|trees| {
         let count = rows(&trees);
         let run = prop::collection::vec((0_u8..3, 0_u8..3), 5);
