@@ -44,6 +44,8 @@ struct Made {
     text: String,
     runs: Vec<(u32, u32)>,
     cells: Vec<(Range<usize>, GridCell)>,
+    /// Where the cell written last ends in the piece.
+    end: usize,
 }
 
 fn saturate(value: usize) -> u32 {
@@ -182,7 +184,7 @@ fn workbook_grid(sheet: &str, range: &calamine::Range<Data>, formulas: Option<&c
             let message = format!("this cell is a formula; its last value `{}` is taken", cell.text);
             cell.notes.push(Note::Guess(message));
         }
-        guessed(cell)
+        cell
     };
     let rows = range.rows().enumerate();
     rows.map(|(row, line)| line.iter().enumerate().map(|(column, data)| cell(row, column, data)).collect()).collect()
@@ -238,12 +240,12 @@ fn csv_grid(piece: &Piece<'_>) -> Grid {
             }
             (false, '\r') if next == Some('\n') => None,
             (false, '\n' | '\r') => {
-                finish(&mut grid, std::mem::take(&mut cell));
+                finish(&mut grid, std::mem::take(&mut cell), at);
                 grid.push(Vec::new());
                 None
             }
             (false, c) if c == separator => {
-                finish(&mut grid, std::mem::take(&mut cell));
+                finish(&mut grid, std::mem::take(&mut cell), at);
                 None
             }
             (true, '\n' | '\r') => Some(' '),
@@ -260,15 +262,18 @@ fn csv_grid(piece: &Piece<'_>) -> Grid {
         contiguous = part.is_some();
         at += c.len_utf8() + skip;
     }
-    finish(&mut grid, cell);
+    finish(&mut grid, cell, at);
     grid
 }
 
-fn finish(grid: &mut Grid, mut cell: GridCell) {
+fn finish(grid: &mut Grid, mut cell: GridCell, at: usize) {
+    if cell.text.is_empty() {
+        cell.span = at..at;
+    }
     let text = cell.text.trim_end();
     cell.text.truncate(text.len());
     if let Some(row) = grid.last_mut() {
-        row.push(guessed(cell));
+        row.push(cell);
     }
 }
 
@@ -310,7 +315,7 @@ fn make(grid: &Grid, name: &str) -> Made {
         };
         let plain = GridCell { text: format!("@gtt {name}"), ..grid[at].first().cloned().unwrap_or_default() };
         made.cell(&heading.take().unwrap_or(GridCell { notes: Vec::new(), ..plain }), false);
-        made.text.push('\n');
+        made.glue("\n", made.end);
         at = made.table(grid, at, &header);
     }
     made
@@ -386,19 +391,14 @@ impl Made {
     /// Writes a table from the line `at` on; gives the line behind it.
     fn table(&mut self, grid: &Grid, at: usize, header: &Header) -> usize {
         for (column, title) in header.columns.iter().enumerate() {
-            if let Some(title) = title {
-                let above = &grid[at + header.lines - 1];
-                let source = above.get(column).filter(|cell| !cell.text.is_empty()).or_else(|| grid[at].get(column));
-                let cell = GridCell { text: title.clone(), notes: Vec::new(), ..source.cloned().unwrap_or_default() };
-                self.text.push_str("| ");
-                self.cell(
-                    &GridCell { runs: cell.runs.first().map(|run| (0, run.1)).into_iter().collect(), ..cell },
-                    true,
-                );
-                self.text.push(' ');
-            }
+            let Some(title) = title else { continue };
+            let below = grid[at + header.lines - 1].get(column).filter(|cell| !cell.text.is_empty());
+            let source = below.or_else(|| grid[at].get(column)).cloned().unwrap_or_default();
+            let runs = source.runs.first().map(|run| (0, run.1)).into_iter().collect();
+            self.bar(&source);
+            self.cell(&GridCell { text: title.clone(), notes: Vec::new(), runs, ..source }, true);
         }
-        self.text.push_str("|\n");
+        self.line_end();
         let mut row = at + header.lines;
         while row < grid.len() {
             let line = &grid[row];
@@ -407,30 +407,56 @@ impl Made {
                 break;
             }
             for (column, title) in header.columns.iter().enumerate() {
-                if title.is_some() {
-                    self.text.push_str("| ");
-                    self.cell(&line.get(column).cloned().unwrap_or_default(), true);
-                    self.text.push(' ');
-                }
+                let Some(title) = title else { continue };
+                let cell = line.get(column).cloned().unwrap_or_default();
+                let bound = matches!(pipe::header_kind(title), pipe::Header::Bound(..));
+                self.bar(&cell);
+                self.cell(&if bound { guessed(cell) } else { cell }, true);
             }
-            self.text.push_str("|\n");
+            self.line_end();
             row += 1;
         }
         row
     }
 
+    /// Text that stands nowhere: all of it at one place of the piece.
+    fn glue(&mut self, text: &str, at: usize) {
+        for c in text.chars() {
+            self.runs.push((saturate(self.text.len()), saturate(at)));
+            self.text.push(c);
+        }
+    }
+
+    /// The bar in front of a cell, at its beginning.
+    fn bar(&mut self, cell: &GridCell) {
+        self.glue("| ", cell.span.start.max(self.end));
+    }
+
+    /// The last bar of a line, at the last byte of its last cell, so that a line ends where that cell does.
+    fn line_end(&mut self) {
+        self.glue("|", self.end.saturating_sub(1));
+        self.glue("\n", self.end);
+    }
+
     fn cell(&mut self, cell: &GridCell, escape: bool) {
         let start = self.text.len();
         let mut runs = cell.runs.iter().peekable();
+        let mut there = self.end;
         for (at, c) in cell.text.char_indices() {
             if let Some((_, to)) = runs.next_if(|(from, _)| *from as usize <= at) {
-                self.runs.push((saturate(self.text.len()), *to));
+                there = *to as usize;
             }
+            let here = there.min(cell.span.end.max(self.end));
             if c == '|' && escape {
+                self.runs.push((saturate(self.text.len()), saturate(here)));
                 self.text.push('\\');
             }
+            self.runs.push((saturate(self.text.len()), saturate(here)));
             self.text.push(c);
+            there += c.len_utf8();
         }
+        self.end = cell.span.end.max(self.end);
         self.cells.push((start..self.text.len(), cell.clone()));
+        self.glue(" ", self.end);
     }
 }
