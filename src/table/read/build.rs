@@ -92,8 +92,7 @@ impl<'o> Builder<'o> {
                 None
             }
         };
-        let map = span_map(&piece);
-        Some(Cell { text: piece.text.to_owned(), place: piece.whole(), map, constraint })
+        Some(Cell { text: piece.text.to_owned(), place: piece.whole(), constraint })
     }
 
     /// Reads the expressions of a projection.

@@ -7,7 +7,7 @@
 
 use roxmltree::Node as Element;
 
-use super::build::{Builder, span_map};
+use super::build::Builder;
 use super::exteta::variable_column;
 use super::xml::{Source, child, elements};
 use super::{Options, Read};
@@ -91,7 +91,7 @@ fn any(source: &Source<'_, '_>, step: Element<'_, '_>) -> Cell {
     let place = source.head(step);
     let chunk = crate::table::cell::ast::Chunk { kind: crate::table::cell::ast::ChunkKind::Any, span: place.span };
     let constraint = Some(crate::table::cell::ast::Constraint { chunks: vec![chunk] });
-    Cell { text: "-".to_owned(), place, map: crate::text::SpanMap::verbatim(place.span.start), constraint }
+    Cell { text: "-".to_owned(), place, constraint }
 }
 
 fn cell(
@@ -125,7 +125,6 @@ fn cell(
     let mut read = builder.cell(&piece, 1);
     if let Some(cell) = &mut read {
         cell.place = head;
-        cell.map = span_map(&piece);
     }
     cells[index] = read;
 }

@@ -403,3 +403,23 @@ fn tokens_and_words_play_the_same_game() {
     }
     assert!(tried.get() > cases() / 2, "only {} of {} tables were small enough", tried.get(), cases());
 }
+
+/// How long 500 rows and 40 columns take; `cargo test -- --ignored --nocapture large` prints it.
+#[test]
+#[ignore = "measures"]
+#[allow(clippy::print_stderr, reason = "a measurement")]
+fn a_large_table_reads_and_unrolls() {
+    let columns: Vec<String> = (0..40).map(|i| format!("{} v{i} : INT", if i < 20 { "in" } else { "out" })).collect();
+    let mut text = format!("@gtt Large\n| # | {} | dur |\n|{}\n", columns.join(" | "), "---|".repeat(42));
+    for row in 0..500 {
+        let cells: Vec<String> = (0..40).map(|i| format!(">= {row}, <= {i} + 500")).collect();
+        let duration = ["[1,10]", "-", "5", ">= 2 p"][row % 4];
+        text += &format!("| {row} | {} | {duration} |\n", cells.join(" | "));
+    }
+    let start = std::time::Instant::now();
+    let read = super::pipe(&text);
+    let middle = start.elapsed();
+    let automaton = Automaton::build(&read.tables[0]).expect("it has one");
+    eprintln!("read {middle:?}, unrolled {:?}", start.elapsed() - middle);
+    assert_eq!(automaton.leaves.len(), 500);
+}

@@ -165,7 +165,7 @@ fn everything(text: &str) {
                 (write::pipe(table), write::gtt(table), write::exteta(table), write::stvs(table), write::csv(table));
         }
     }
-    write::format_in_place(text);
+    assert_eq!(write::format_in_place(&write::format_in_place(text)), write::format_in_place(text), "{text}");
 }
 
 #[test]
