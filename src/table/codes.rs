@@ -52,6 +52,61 @@ pub static UNATTACHED_TABLE: Code =
 /// A `@gtt` path that leads to no table.
 pub static MISSING_TABLE_FILE: Code =
     Code { name: "missing-table-file", severity: Severity::Warning, page: include_str!("pages/missing-table-file.md") };
+/// What a spreadsheet left open.
+pub static TABLE_IMPORT_GUESS: Code =
+    Code { name: "table-import-guess", severity: Severity::Info, page: include_str!("pages/table-import-guess.md") };
+
+/// A spreadsheet cell that cannot be trusted.
+pub static TABLE_IMPORT_REFUSED: Code = Code {
+    name: "table-import-refused",
+    severity: Severity::Error,
+    page: include_str!("pages/table-import-refused.md"),
+};
+
+/// A row at the end that is never checked.
+pub static TABLE_NEVER_CHECKED: Code = Code {
+    name: "table-never-checked",
+    severity: Severity::Warning,
+    page: include_str!("pages/table-never-checked.md"),
+};
+
+/// A row that no run reaches.
+pub static TABLE_NEVER_REACHED: Code = Code {
+    name: "table-never-reached",
+    severity: Severity::Warning,
+    page: include_str!("pages/table-never-reached.md"),
+};
+
+/// Strict conformance to a table without an end.
+pub static TABLE_NEVER_STRICT: Code =
+    Code { name: "table-never-strict", severity: Severity::Warning, page: include_str!("pages/table-never-strict.md") };
+
+/// A table that may be over before it begins.
+pub static TABLE_EMPTY_RUN: Code =
+    Code { name: "table-empty-run", severity: Severity::Warning, page: include_str!("pages/table-empty-run.md") };
+
+/// A global variable that is used once.
+pub static TABLE_GLOBAL_ONCE: Code =
+    Code { name: "table-global-once", severity: Severity::Warning, page: include_str!("pages/table-global-once.md") };
+
+/// A Boolean that may be meant as a condition.
+pub static TABLE_AMBIGUOUS_BOOLEAN: Code = Code {
+    name: "table-ambiguous-boolean",
+    severity: Severity::Warning,
+    page: include_str!("pages/table-ambiguous-boolean.md"),
+};
+
+/// A column that is never constrained.
+pub static TABLE_FREE_COLUMN: Code =
+    Code { name: "table-free-column", severity: Severity::Warning, page: include_str!("pages/table-free-column.md") };
+
+/// A value from before the run.
+pub static TABLE_EARLY_PAST: Code =
+    Code { name: "table-early-past", severity: Severity::Warning, page: include_str!("pages/table-early-past.md") };
+
+/// Blank cells that repeat the one above.
+pub static TABLE_BLANK_REPEATS: Code =
+    Code { name: "table-blank-repeats", severity: Severity::Info, page: include_str!("pages/table-blank-repeats.md") };
 
 /// All codes of the room.
 pub static ALL: &[&Code] = &[
@@ -67,4 +122,15 @@ pub static ALL: &[&Code] = &[
     &TABLE_UNSUPPORTED,
     &UNATTACHED_TABLE,
     &MISSING_TABLE_FILE,
+    &TABLE_IMPORT_GUESS,
+    &TABLE_IMPORT_REFUSED,
+    &TABLE_NEVER_CHECKED,
+    &TABLE_NEVER_REACHED,
+    &TABLE_NEVER_STRICT,
+    &TABLE_EMPTY_RUN,
+    &TABLE_GLOBAL_ONCE,
+    &TABLE_AMBIGUOUS_BOOLEAN,
+    &TABLE_FREE_COLUMN,
+    &TABLE_EARLY_PAST,
+    &TABLE_BLANK_REPEATS,
 ];

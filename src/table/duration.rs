@@ -360,7 +360,7 @@ impl Parser<'_> {
         if !self.eat(&["]"]) {
             return Err(self.error("`]` was expected at the end of the interval"));
         }
-        Ok(Bounds::Between(low, high))
+        Ok(if high.as_ref() == Some(&low) { Bounds::Exactly(low) } else { Bounds::Between(low, high) })
     }
 
     fn amount(&mut self) -> Result<Amount, DurationError> {

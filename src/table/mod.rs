@@ -10,12 +10,15 @@ pub mod cell;
 pub mod codes;
 pub mod duration;
 pub mod eval;
+pub mod explain;
 pub mod layout;
+pub mod lint;
 pub mod model;
 mod near;
 pub mod piece;
 pub mod read;
 pub mod run;
+pub mod write;
 
 pub use attach::{AttachedTable, TableError};
 pub use model::Table;

@@ -5,7 +5,7 @@
 
 use super::cell::ast::{Constraint, Expr, Path};
 use super::duration::DurationCell;
-use crate::text::{Place, SpanMap};
+use crate::text::Place;
 
 /// A table.
 #[derive(Clone, Debug)]
@@ -230,8 +230,6 @@ pub struct Cell {
     pub text: String,
     /// Where it stands.
     pub place: Place,
-    /// From offsets of the text to offsets of the file.
-    pub map: SpanMap,
     /// What it says; `None` where it could not be read, which spoils its row.
     pub constraint: Option<Constraint>,
 }

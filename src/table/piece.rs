@@ -1,6 +1,6 @@
 //! A piece of text with the way back to the user's file: what every reader and parser of the room works on.
 
-use std::borrow::Cow;
+use std::sync::Arc;
 
 use crate::text::{FileId, Place, Span, SpanMap};
 
@@ -12,27 +12,27 @@ pub struct Piece<'a> {
     /// The text.
     pub text: &'a str,
     base: u32,
-    map: Cow<'a, SpanMap>,
+    map: Arc<SpanMap>,
 }
 
 impl<'a> Piece<'a> {
     /// `text`, whose bytes stand in `file` where `map` says.
     #[must_use]
-    pub const fn new(file: FileId, text: &'a str, map: &'a SpanMap) -> Self {
-        Self { file, text, base: 0, map: Cow::Borrowed(map) }
+    pub fn new(file: FileId, text: &'a str, map: &SpanMap) -> Self {
+        Self { file, text, base: 0, map: Arc::new(map.clone()) }
     }
 
     /// `text`, which stands in `file` as it is, from byte `start` on.
     #[must_use]
     pub fn verbatim(file: FileId, text: &'a str, start: u32) -> Self {
-        Self { file, text, base: 0, map: Cow::Owned(SpanMap::verbatim(start)) }
+        Self { file, text, base: 0, map: Arc::new(SpanMap::verbatim(start)) }
     }
 
     /// The part of this piece in `range` (of its own text); empty where the range does not fit.
     #[must_use]
     pub fn part(&self, range: std::ops::Range<usize>) -> Piece<'a> {
         let base = self.base + u32::try_from(range.start).unwrap_or(u32::MAX);
-        Piece { file: self.file, text: self.text.get(range).unwrap_or(""), base, map: self.map.clone() }
+        Piece { file: self.file, text: self.text.get(range).unwrap_or(""), base, map: Arc::clone(&self.map) }
     }
 
     /// How many bytes this piece begins behind `other`, both being parts of one piece.
@@ -44,8 +44,8 @@ impl<'a> Piece<'a> {
     /// Another text made from this one, where `runs` pairs offsets of `text` with offsets of this piece.
     #[must_use]
     pub fn rewritten<'b>(&self, text: &'b str, runs: &[(u32, u32)]) -> Piece<'b> {
-        let runs: Vec<(u32, u32)> = runs.iter().map(|(from, to)| (*from, self.map.offset(self.base + to))).collect();
-        Piece { file: self.file, text, base: 0, map: Cow::Owned(SpanMap::new(runs)) }
+        let runs = runs.iter().map(|(from, to)| (*from, self.map.offset(self.base + to))).collect();
+        Piece { file: self.file, text, base: 0, map: Arc::new(SpanMap::new(runs)) }
     }
 
     /// Without white space at both ends.

@@ -2,9 +2,9 @@
 
 use super::automaton::game::{Game, Judge, Standing};
 use super::automaton::{Automaton, NoAutomaton, Site};
-use super::cell::ast::{Path, Step};
+use super::cell::ast::{ChunkKind, ExprKind, Path, Predicate, Step};
 use super::cell::print;
-use super::eval::{Evaluator, Scope, Value};
+use super::eval::{Evaluator, Scope, Value, is_standard};
 use super::model::{Cell, Table};
 
 /// The values of one cycle, by the names that the table's columns are bound to.
@@ -23,7 +23,8 @@ pub struct Run<'t> {
 
 impl<'t> Run<'t> {
     /// A run of `table` before its first cycle. `globals` are the values of the global variables, `initial` those that
-    /// variables hold before the first cycle.
+    /// variables hold before the first cycle. A cell that calls a function of the table is not satisfied: see
+    /// [`calls_own_function`].
     #[must_use]
     pub fn new(table: &'t Table, automaton: &'t Automaton, globals: Vec<(String, Value)>, initial: Cycle) -> Self {
         let game = Game::new(automaton);
@@ -40,6 +41,12 @@ impl<'t> Run<'t> {
     #[must_use]
     pub fn rows(&self) -> Vec<usize> {
         self.game.live().into_iter().map(|leaf| self.automaton.leaves[leaf].row).collect()
+    }
+
+    /// How many ranges of counts the live tokens take.
+    #[must_use]
+    pub fn weight(&self) -> usize {
+        self.game.weight()
     }
 
     /// Whether the global variables satisfy what they are declared with.
@@ -147,7 +154,7 @@ fn bit(path: &Path, found: &dyn Fn(&str) -> Option<Value>) -> Option<Value> {
 /// Unrolls and plays a whole run; the standing after each cycle.
 ///
 /// # Errors
-/// Where the table has no automaton.
+/// Where the table has no automaton, or calls a function of its own, which only the interpreter of programs can evaluate.
 pub fn play(
     table: &Table,
     globals: Vec<(String, Value)>,
@@ -155,6 +162,9 @@ pub fn play(
     cycles: impl IntoIterator<Item = Cycle>,
 ) -> Result<Vec<Standing>, NoAutomaton> {
     let automaton = Automaton::build(table)?;
+    if calls_own_function(table) {
+        return Err(NoAutomaton::Unsupported);
+    }
     let mut run = Run::new(table, &automaton, globals, initial);
     let mut out = Vec::new();
     for cycle in cycles {
@@ -164,4 +174,18 @@ pub fn play(
         out.push(run.play(cycle).clone());
     }
     Ok(out)
+}
+
+/// Whether a cell calls a function that is none of the standard.
+#[must_use]
+pub fn calls_own_function(table: &Table) -> bool {
+    let mut found = false;
+    for cell in table.rows().iter().flat_map(|row| row.cells.iter().flatten()) {
+        let Some(constraint) = &cell.constraint else { continue };
+        found |= constraint.chunks.iter().any(|c| matches!(&c.kind, ChunkKind::Predicate(Predicate::Function(_))));
+        constraint.walk(&mut |expr| {
+            found |= matches!(&expr.kind, ExprKind::Call { name, .. } if !is_standard(name));
+        });
+    }
+    found
 }

@@ -3,9 +3,13 @@
 mod automaton;
 mod cells;
 mod corpora;
+mod fuzz;
 mod gtt;
 mod layout;
+mod papers;
 mod pipe;
+mod write;
+mod xml;
 
 use rungbook::diagnostic::Finding;
 use rungbook::table::piece::Piece;
@@ -26,4 +30,9 @@ fn gtt(text: &str) -> Read {
 fn shown(text: &str, findings: &[Finding]) -> Vec<String> {
     let one = |f: &Finding| format!("{} at {:?}: {}", f.code.name, f.place.span.of(text), f.message);
     findings.iter().map(one).collect()
+}
+
+/// Reads `text` as a table file, whatever it is.
+fn any(text: &str) -> Read {
+    read::text(&Piece::verbatim(FileId(0), text, 0), &Options::default())
 }

@@ -143,8 +143,25 @@ pub(super) fn connect(mut shape: Shape) -> Result<Automaton, NoAutomaton> {
     let mut edges: Vec<Ways> = (0..connector.shape.leaves.len()).map(|leaf| connector.edges_of(leaf)).collect();
     connector.add_rivals(&mut entries);
     edges.iter_mut().for_each(|edges| connector.add_rivals(edges));
-    let ends = may_be_empty || edges.iter().flatten().any(|edge| edge.target == Target::End);
+    let ends = may_be_empty || reaches_end(&entries, &edges);
     Ok(Automaton { leaves: connector.shape.leaves, loops: connector.shape.loops, entries, edges, may_be_empty, ends })
+}
+
+/// Whether some way from the beginning leads to the end.
+fn reaches_end(entries: &Ways, edges: &[Ways]) -> bool {
+    let mut seen = vec![false; edges.len()];
+    let mut work: Vec<&Edge> = entries.iter().collect();
+    while let Some(edge) = work.pop() {
+        match edge.target {
+            Target::End => return true,
+            Target::Enter(leaf) if !seen[leaf] => {
+                seen[leaf] = true;
+                work.extend(&edges[leaf]);
+            }
+            _ => {}
+        }
+    }
+    false
 }
 
 impl Connector {

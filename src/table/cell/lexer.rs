@@ -67,7 +67,7 @@ pub(super) fn lex(piece: &Piece<'_>, relational: bool) -> Result<Vec<Lexeme>, Ce
     }
 }
 
-const SYMBOLS: [(&str, Token); 44] = [
+static SYMBOLS: [(&str, Token); 44] = [
     ("<=", Token::Binary(BinaryOp::Le)),
     ("=<", Token::Binary(BinaryOp::Le)),
     (">=", Token::Binary(BinaryOp::Ge)),

@@ -14,6 +14,12 @@ pub(super) fn standard(name: &str, named: &[Option<&str>], args: &[Value]) -> Op
     Some(ordered(formals, named, args).and_then(|args| apply(&name, &args)))
 }
 
+/// Whether cells can call the function without the table bringing it along.
+#[must_use]
+pub fn is_standard(name: &str) -> bool {
+    formals(&name.to_ascii_uppercase()).is_some()
+}
+
 /// The names of the arguments; functions that take any number of them have none.
 fn formals(name: &str) -> Option<&'static [&'static str]> {
     Some(match name {

@@ -10,6 +10,7 @@ use super::cell::ast::{
 };
 use super::model::Subject;
 
+pub use functions::is_standard;
 pub use value::{IntType, NoValue, Value};
 
 /// What names stand for in the cycle that is looked at.

@@ -8,7 +8,7 @@ use crate::table::cell::ast::{Expr, Predicate};
 use crate::table::cell::{self, CellError, Context, ast::ChunkKind, ast::ExprKind};
 use crate::table::codes;
 use crate::table::duration::{self, Bounds, Duration, DurationCell, Flag, Uncounted};
-use crate::table::model::{Cell, Column, CycleTime, Global, Node, Quantity, Row, Subject, Table, Word};
+use crate::table::model::{Cell, Column, CycleTime, Global, Node, Quantity, Row, Subject, Table, TimeConstant, Word};
 use crate::table::near::nearest;
 use crate::table::piece::Piece;
 use crate::text::{Place, SpanMap};
@@ -17,6 +17,8 @@ use crate::text::{Place, SpanMap};
 pub(super) struct Builder<'o> {
     pub(super) table: Table,
     pub(super) context: Context,
+    /// For each declared column in the order of the file, its index, or none where it was refused.
+    pub(super) slots: Vec<Option<usize>>,
     findings: Vec<Finding>,
     options: &'o Options,
 }
@@ -30,7 +32,7 @@ impl<'o> Builder<'o> {
     pub(super) fn new(name: Word, place: Place, options: &'o Options) -> Self {
         let mut table = Table::new(name, place);
         table.options.cycle = options.cycle.map(|nanos| CycleTime { nanos, place: None });
-        Self { table, context: Context::default(), findings: Vec::new(), options }
+        Self { table, context: Context::default(), slots: Vec::new(), findings: Vec::new(), options }
     }
 
     pub(super) fn report(&mut self, finding: Finding) {
@@ -90,8 +92,7 @@ impl<'o> Builder<'o> {
                 None
             }
         };
-        let map = span_map(&piece);
-        Some(Cell { text: piece.text.to_owned(), place: piece.whole(), map, constraint })
+        Some(Cell { text: piece.text.to_owned(), place: piece.whole(), constraint })
     }
 
     /// Reads the expressions of a projection.
@@ -130,6 +131,33 @@ impl<'o> Builder<'o> {
                 self.report(finding);
                 DurationCell { text, place: piece.whole(), duration: missing, repeat: None, spoiled: true }
             }
+        }
+    }
+
+    /// Takes an option: those that this program itself writes are understood, those of other tools are kept.
+    pub(super) fn option(&mut self, key: Word, value: Word) {
+        let text = value.text.trim_matches('"').to_owned();
+        let yes = text.eq_ignore_ascii_case("true");
+        let options = &mut self.table.options;
+        match key.text.as_str() {
+            "cycle" => match super::heading::quantity(&text) {
+                Some(Quantity::Nanos(nanos)) if nanos > 0 => {
+                    options.cycle = Some(CycleTime { nanos, place: Some(value.place) });
+                }
+                _ => self.wrong(&codes::TABLE_SYNTAX, value.place, format!("`{text}` is no cycle time")),
+            },
+            "strict" => options.strict = yes,
+            "concrete" => options.concrete = yes,
+            "title" => self.table.name = text,
+            "unit" => self.table.unit = Some(Word { text, place: value.place }),
+            name if name.starts_with("const.") => match super::heading::quantity(&text) {
+                Some(quantity) => {
+                    let name = name["const.".len()..].to_owned();
+                    self.table.constants.push(TimeConstant { name, value: quantity, place: key.place });
+                }
+                None => self.wrong(&codes::TABLE_SYNTAX, value.place, format!("`{text}` is no duration")),
+            },
+            _ => options.entries.push((key, Word { text, place: value.place })),
         }
     }
 
@@ -256,7 +284,7 @@ impl<'o> Builder<'o> {
 }
 
 /// The map of a piece's own text, for spans that are taken later.
-fn span_map(piece: &Piece<'_>) -> SpanMap {
+pub(super) fn span_map(piece: &Piece<'_>) -> SpanMap {
     let mut runs = Vec::new();
     let mut next = None;
     for (at, _) in piece.text.char_indices().chain(std::iter::once((piece.text.len(), ' '))) {

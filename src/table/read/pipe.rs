@@ -124,9 +124,28 @@ fn reference(head: &Piece<'_>, read: &mut Read) {
 }
 
 fn name_and_attributes<'a>(head: &Piece<'a>) -> (Piece<'a>, Option<Piece<'a>>) {
-    let Some(open) = head.text.find('(') else { return (head.trimmed(), None) };
-    let end = head.text.rfind(')').filter(|end| *end > open).unwrap_or(head.text.len());
+    let text = head.text.trim_end();
+    let Some(open) = last_group(text) else { return (head.trimmed(), None) };
+    let end = text.len() - usize::from(text.ends_with(')'));
     (head.part(0..open).trimmed(), Some(head.part(open + 1..end)))
+}
+
+/// Where the last group in parentheses begins that ends the text, or that never ends.
+fn last_group(text: &str) -> Option<usize> {
+    let mut open = Vec::new();
+    let mut last = None;
+    for (at, c) in text.char_indices() {
+        match c {
+            '(' => open.push(at),
+            ')' => last = open.pop().map(|begin| (begin, at)),
+            _ => {}
+        }
+    }
+    match (open.first(), last) {
+        (Some(begin), _) => Some(*begin),
+        (None, Some((begin, end))) if end + 1 == text.len() => Some(begin),
+        _ => None,
+    }
 }
 
 /// Reads a table that no `@gtt` line announces, if its header is that of one.

@@ -136,7 +136,7 @@ impl Unroller {
 
     fn block(&mut self, tau: Tau, flag: bool, children: &[Tree], path: &[usize]) -> Result<Words, TooMany> {
         let (rows, flagged) = (self.facts.rows.len(), self.flagged.len());
-        let mut iteration = |me: &mut Self, number: usize| {
+        let iteration = |me: &mut Self, number: usize| {
             // The rows of a block have the same numbers in each of its iterations.
             me.facts.rows.truncate(rows);
             me.flagged.truncate(flagged);
@@ -356,7 +356,10 @@ fn letters() -> impl Strategy<Value = Letters> {
     (pair(), pair()).prop_map(|(inputs, outputs)| [inputs, outputs])
 }
 
-fn case() -> impl Strategy<Value = (Vec<Tree>, Vec<Letters>, Vec<Vec<(u8, u8)>>)> {
+/// A table, the constraints of its rows, and some runs.
+type Case = (Vec<Tree>, Vec<Letters>, Vec<Vec<(u8, u8)>>);
+
+fn case() -> impl Strategy<Value = Case> {
     trees().prop_flat_map(|trees| {
         let count = rows(&trees);
         let run = prop::collection::vec((0_u8..3, 0_u8..3), 5);
@@ -399,4 +402,24 @@ fn tokens_and_words_play_the_same_game() {
         panic!("{error}");
     }
     assert!(tried.get() > cases() / 2, "only {} of {} tables were small enough", tried.get(), cases());
+}
+
+/// How long 500 rows and 40 columns take; `cargo test -- --ignored --nocapture large` prints it.
+#[test]
+#[ignore = "measures"]
+#[allow(clippy::print_stderr, reason = "a measurement")]
+fn a_large_table_reads_and_unrolls() {
+    let columns: Vec<String> = (0..40).map(|i| format!("{} v{i} : INT", if i < 20 { "in" } else { "out" })).collect();
+    let mut text = format!("@gtt Large\n| # | {} | dur |\n|{}\n", columns.join(" | "), "---|".repeat(42));
+    for row in 0..500 {
+        let cells: Vec<String> = (0..40).map(|i| format!(">= {row}, <= {i} + 500")).collect();
+        let duration = ["[1,10]", "-", "5", ">= 2 p"][row % 4];
+        text += &format!("| {row} | {} | {duration} |\n", cells.join(" | "));
+    }
+    let start = std::time::Instant::now();
+    let read = super::pipe(&text);
+    let middle = start.elapsed();
+    let automaton = Automaton::build(&read.tables[0]).expect("it has one");
+    eprintln!("read {middle:?}, unrolled {:?}", start.elapsed() - middle);
+    assert_eq!(automaton.leaves.len(), 500);
 }

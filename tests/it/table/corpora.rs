@@ -2,6 +2,8 @@
 //!
 //! Run with `RUNGBOOK_CORPORA=/path cargo test -- --ignored table::corpora`.
 
+#![allow(clippy::disallowed_methods, reason = "the test reads trees from the disk that are not part of it")]
+
 use std::path::{Path, PathBuf};
 
 use rungbook::diagnostic::Severity;
@@ -56,4 +58,38 @@ fn every_gtt_file_of_geteta_reads() {
         }
     }
     assert!(bad.is_empty(), "{}", bad.join("\n\n"));
+}
+
+/// Specifications and sessions of STVS, tables in exteta: those that are meant to be valid have no errors; none is a crash.
+/// The random ones with many columns use the same names several times; one table
+/// has a cell for a variable that it does not declare.
+#[test]
+#[ignore = "needs the trees of other projects"]
+fn every_table_in_xml_reads() {
+    let mut found = Vec::new();
+    for tree in ["verifaps-lib", "verifaps-old", "stvs"] {
+        files(&root().join(tree), &|path| path.extension().is_some_and(|e| e == "xml" || e == "gtt"), &mut found);
+    }
+    let (mut tables, mut bad) = (0, Vec::new());
+    for path in found {
+        let text = String::from_utf8_lossy(&std::fs::read(&path).expect("a listed file is there")).into_owned();
+        let is_table =
+            ["<test-table", "<session", "<specification", "<tabletestspec"].iter().any(|tag| text.contains(tag));
+        if !is_table {
+            continue;
+        }
+        let piece = rungbook::table::Piece::verbatim(rungbook::text::FileId(0), &text, 0);
+        let read = rungbook::table::read::text(&piece, &Default::default());
+        tables += read.tables.len();
+        let errors: Vec<_> = read.findings.iter().filter(|f| f.severity == Severity::Error).cloned().collect();
+        if !errors.is_empty()
+            && !["invalid", "random_1000", "random_5000", "rtt_inter"]
+                .iter()
+                .any(|name| path.to_string_lossy().contains(name))
+        {
+            bad.push(format!("{}\n{}", path.display(), super::shown(&text, &errors[..errors.len().min(5)]).join("\n")));
+        }
+    }
+    assert!(tables > 50, "{tables} tables");
+    assert!(bad.is_empty(), "{} tables\n{}", tables, bad.join("\n\n"));
 }

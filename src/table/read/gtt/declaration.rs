@@ -4,10 +4,10 @@ use super::lexer::Kind;
 use super::{Builder, Finding, Reader, Result, codes, word};
 use crate::diagnostic::Severity;
 use crate::table::cell::ast::Path;
-use crate::table::model::{Column, ColumnKind, CycleTime, Function, Quantity, Subject, Word};
+use crate::table::model::{Column, ColumnKind, Function, Subject, Word};
 use crate::table::piece::Piece;
 use crate::table::read::build::subject;
-use crate::table::read::heading::{add_constant, quantity};
+use crate::table::read::heading::add_constant;
 use crate::text::Place;
 
 impl<'p> Reader<'_, 'p> {
@@ -126,15 +126,14 @@ impl<'p> Reader<'_, 'p> {
         piece
     }
 
-    /// `gvar NAME : TYPE [with CELL]`.
+    /// `gvar NAME [: TYPE] [with CELL]`.
     pub(super) fn global(&mut self, builder: &mut Builder<'_>) -> Result<()> {
         self.at += 1;
         let name = self.name(builder, "the name of a global variable")?;
-        self.expect(builder, ":")?;
-        let ty = self.type_name(builder)?;
+        let ty = if self.eat(":") { Some(self.type_name(builder)?) } else { None };
         let constraint = if self.eat("with") { Some(self.until_member()) } else { None };
         self.eat(";");
-        builder.global(name, Some(ty), constraint.as_ref());
+        builder.global(name, ty, constraint.as_ref());
         Ok(())
     }
 
@@ -172,7 +171,7 @@ impl<'p> Reader<'_, 'p> {
             }
             let value = word(&self.since(from));
             self.eat(";");
-            option(builder, key, value);
+            builder.option(key, value);
         }
         Ok(())
     }
@@ -252,23 +251,4 @@ pub(super) fn unknown(builder: &mut Builder<'_>, place: Place, message: &str) {
     let mut finding = Finding::new(&codes::TABLE_NAME, place, message);
     finding.severity = Severity::Error;
     builder.report(finding);
-}
-
-/// The options that this program itself writes are understood; those of geteta are kept.
-fn option(builder: &mut Builder<'_>, key: Word, value: Word) {
-    let text = value.text.trim_matches('"');
-    let yes = text.eq_ignore_ascii_case("true");
-    match key.text.as_str() {
-        "cycle" => match quantity(text) {
-            Some(Quantity::Nanos(nanos)) if nanos > 0 => {
-                builder.table.options.cycle = Some(CycleTime { nanos, place: Some(value.place) });
-            }
-            _ => builder.wrong(&codes::TABLE_SYNTAX, value.place, format!("`{text}` is no cycle time")),
-        },
-        "strict" => builder.table.options.strict = yes,
-        "concrete" => builder.table.options.concrete = yes,
-        "title" => text.clone_into(&mut builder.table.name),
-        "unit" => builder.table.unit = Some(Word { text: text.to_owned(), place: value.place }),
-        _ => builder.table.options.entries.push((key, Word { text: text.to_owned(), place: value.place })),
-    }
 }

@@ -82,6 +82,11 @@ fn token(rest: &str) -> (Kind, usize) {
         let len = rest[1..].find('"').map_or(rest.len(), |end| end + 2);
         return (Kind::Text, len);
     }
+    if first == '\'' {
+        let line = rest.find('\n').unwrap_or(rest.len());
+        let len = rest[1..line].find('\'').map_or(1, |end| end + 2);
+        return (if len > 1 { Kind::Text } else { Kind::Sign(first) }, len);
+    }
     if first == '\\' {
         return (Kind::Command, 1 + word_len(&rest[1..]));
     }

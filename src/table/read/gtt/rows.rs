@@ -170,7 +170,15 @@ impl<'p> Reader<'_, 'p> {
         let name = self.column_name(builder);
         self.at += 2;
         let from = self.at;
-        while !self.end() && !self.is("}") && !self.is(";") && !self.begins_cell() && self.kind() != Kind::Command {
+        let mut depth = 0_usize;
+        while !self.end() && !self.is("}") && !self.is(";") && self.kind() != Kind::Command {
+            match self.kind() {
+                Kind::Sign('(' | '[') => depth += 1,
+                Kind::Sign(')' | ']') => depth = depth.saturating_sub(1),
+                // Inside parentheses `IN := 1` names an argument.
+                _ if depth == 0 && self.begins_cell() => break,
+                _ => {}
+            }
             self.at += 1;
         }
         let piece = self.since(from);
