@@ -16,7 +16,7 @@ use super::options::Options;
 use super::placement::{Candidate, Habit, choose_for_item, choose_for_variable};
 use super::tables::{self, Tables};
 use crate::library::{Catalogue, Comment, Item, ItemId, Placement, Pragma, Variable};
-use crate::text::{FileId, Place};
+use crate::text::Place;
 
 mod brief;
 mod tags;
