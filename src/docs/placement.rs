@@ -80,7 +80,8 @@ fn misplaced(candidate: &Candidate, by_body: bool, options: &Options) -> Option<
     let told = text.contains('\n') || text.trim_end().ends_with('.');
     match chunk.placement {
         Placement::FirstInBody if !(by_body || chunk.set_apart && told) => Some(Reason::Statement),
-        Placement::BetweenSections if !told => Some(Reason::Heading),
+        // One line right above a section speaks of the section.
+        Placement::BetweenSections if !told || !(chunk.set_apart || text.contains('\n')) => Some(Reason::Heading),
         _ => None,
     }
 }

@@ -2,6 +2,7 @@
 
 mod cli;
 mod corpora;
+mod docs;
 mod html;
 mod model;
 #[cfg(feature = "pdf")]

@@ -33,7 +33,9 @@ pub(super) fn split(text: &Mapped) -> (Option<Mapped>, Option<Mapped>) {
     let lines = text.lines();
     let line = |i: usize| &text.as_str()[lines[i].clone()];
     let opens = (0..lines.len()).find(|i| is_heading(line(*i)) && (*i + 1 == lines.len() || is_dated(text, *i + 1)));
-    let Some(start) = opens.or_else(|| mostly_entries(text).then_some(0)) else { return (filled(text.clone()), None) };
+    let Some(start) = opens.or_else(|| mostly_entries(text).then_some(0)) else {
+        return ((!text.is_blank()).then(|| text.clone()), None);
+    };
     let end = (start + 1..lines.len()).find(|i| line(*i).trim_start().starts_with('@')).unwrap_or(lines.len());
     let mut prose = text.slice(0..lines[start].start);
     if let Some(rest) = lines.get(end) {

@@ -13,6 +13,7 @@ use super::Reason;
 use super::comment::Chunk;
 use super::conventions::file_header;
 use super::mapped::Mapped;
+use crate::library::Placement;
 
 pub(super) use code::is_code_line;
 pub(super) use heading::is_heading;
@@ -36,9 +37,15 @@ pub(super) fn judge(chunk: &Chunk, name: &str) -> Judgement {
     Judgement { prose, history }
 }
 
+/// Whether there is a word in it, or a sign behind a declaration, such as `CHAR_MUL := 42; // *`.
+fn says_something(chunk: &Chunk, text: &str) -> bool {
+    let sign = chunk.placement == Placement::Trailing && (1..=2).contains(&text.trim().chars().count());
+    sign || text.contains(char::is_alphanumeric)
+}
+
 fn judge_prose(chunk: &Chunk, prose: Mapped, name: &str) -> Result<Mapped, Reason> {
     let text = prose.as_str();
-    if !text.contains(char::is_alphanumeric) || text.contains("@KEY@") {
+    if !says_something(chunk, text) || text.contains("@KEY@") {
         return Err(Reason::Separator);
     }
     if chunk.code || !chunk.marker.is_marked() && code::is_code(text) {

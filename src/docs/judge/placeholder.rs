@@ -51,6 +51,10 @@ const PLACEHOLDERS: [&str; 44] = [
 /// Whether `text` says nothing about what is called `name`.
 pub(in crate::docs) fn is_placeholder(text: &str, name: &str) -> bool {
     let words = fold(&without_elements(text));
+    if words.is_empty() && (1..=2).contains(&text.trim().chars().count()) {
+        // A sign is a sign, as in `CHAR_MUL := 42; // *`.
+        return false;
+    }
     if words.split(' ').count() > 8 {
         return false;
     }

@@ -2,14 +2,20 @@
 
 use std::ops::Range;
 
-use crate::docs::mapped::Mapped;
+use crate::docs::mapped::{Mapped, trim};
 
 /// `text` without indentation that means nothing, and with a backslash before marks that are none.
 pub(super) fn prepare(text: &Mapped) -> Mapped {
+    let lines = text.lines();
+    if let [line] = lines.as_slice() {
+        let mut out = Mapped::beside(text);
+        one_line(&mut out, text, trim(text.as_str(), line.clone()));
+        return out;
+    }
     let mut out = Mapped::beside(text);
     let mut lists = Lists::default();
     let mut fence: Option<String> = None;
-    for (i, line) in text.lines().into_iter().enumerate() {
+    for (i, line) in lines.into_iter().enumerate() {
         if i > 0 {
             out.add("\n");
         }
@@ -32,6 +38,23 @@ pub(super) fn prepare(text: &Mapped) -> Mapped {
         }
     }
     out
+}
+
+/// A text of one line has no lists, headings and quotations: `- 5 V`, `+ (sign)`, `#1` begin with a sign.
+fn one_line(out: &mut Mapped, text: &Mapped, line: Range<usize>) {
+    let part = &text.as_str()[line.clone()];
+    let digits = part.chars().take_while(char::is_ascii_digit).count();
+    let number = digits > 0 && part[digits..].starts_with(['.', ')']);
+    let at = if number { line.start + digits } else { line.start };
+    let mark = part.starts_with(['-', '+', '#', '>', '=', '|', '~']) || part.starts_with("* ") || part == "*";
+    out.append(text, line.start..at);
+    if number || mark && !part.starts_with("~~") {
+        out.add("\\");
+        out.append(text, at..at + 1);
+        escape(out, text, at + 1..line.end);
+    } else {
+        escape(out, text, at..line.end);
+    }
 }
 
 /// `text` with a backslash before each `<`, so that it holds no HTML.

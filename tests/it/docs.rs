@@ -1,0 +1,3 @@
+//! Tests of `docs` that need other rooms.
+
+mod attachment;
