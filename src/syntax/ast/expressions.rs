@@ -167,6 +167,12 @@ impl<'t> NameExpression<'t> {
         own_name(self.0).map_or("", name_text)
     }
 
+    /// Whether `:P` stands behind it: the module itself, not the process image (Siemens).
+    #[must_use]
+    pub fn is_peripheral(self) -> bool {
+        self.0.has_token(TokenKind::Colon)
+    }
+
     /// Whether `#` stands before it: a local variable (Siemens).
     #[must_use]
     pub fn is_local(self) -> bool {

@@ -221,7 +221,7 @@ fn primary(p: &mut Parser<'_>) -> Option<Done> {
         kind if LITERALS.contains(kind) => Some(token(p, NodeKind::Literal)),
         TokenKind::Null if p.nth(1) != TokenKind::Dot => Some(token(p, NodeKind::Literal)),
         TokenKind::TypePrefix => Some(typed(p)),
-        TokenKind::Address => Some(token(p, NodeKind::AddressExpression)),
+        TokenKind::Address => Some(address(p)),
         TokenKind::This => Some(token(p, NodeKind::ThisExpression)),
         TokenKind::Super => Some(token(p, NodeKind::SuperExpression)),
         TokenKind::LParen => p.deeper(|p| parens(p, false)).flatten(),
@@ -260,7 +260,33 @@ fn global_name(p: &mut Parser<'_>) -> Done {
 /// Text in double quotes: a name where a name's continuation follows, or where the dialect says so.
 fn string_or_name(p: &mut Parser<'_>) -> Done {
     let continues = matches!(p.nth(1), TokenKind::Dot | TokenKind::LParen | TokenKind::LBracket | TokenKind::Assign);
-    if p.options.quoted_names || continues { name(p) } else { token(p, NodeKind::Literal) }
+    if !p.options.quoted_names && !continues && !peripheral_follows(p) {
+        return token(p, NodeKind::Literal);
+    }
+    let marker = p.start();
+    bump_name(p);
+    opt_peripheral(p);
+    p.complete(marker, NodeKind::NameExpression)
+}
+
+fn address(p: &mut Parser<'_>) -> Done {
+    let marker = p.start();
+    p.bump();
+    opt_peripheral(p);
+    p.complete(marker, NodeKind::AddressExpression)
+}
+
+/// Whether `:P` follows without a blank: the module itself, not the process image (Siemens).
+pub(super) fn peripheral_follows(p: &Parser<'_>) -> bool {
+    p.nth(1) == TokenKind::Colon && p.nth_is_joined(0) && p.nth_is_joined(1) && p.nth_is_word(2, "P")
+}
+
+/// `:P` behind what was just taken.
+fn opt_peripheral(p: &mut Parser<'_>) {
+    if p.at(TokenKind::Colon) && p.nth_is_joined(0) && p.nth_is_word(1, "P") {
+        p.bump();
+        p.bump();
+    }
 }
 
 /// `INT#-5`, `WORD#16#FF`, `STRING#'x'`, `Colour#Red`.

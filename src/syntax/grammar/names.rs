@@ -13,7 +13,7 @@ pub(super) const fn is_name(kind: TokenKind) -> bool {
 
 /// Whether a keyword can be a name where what follows it shows that it is one.
 pub(super) const fn keyword_may_be_name(kind: TokenKind) -> bool {
-    kind.is_keyword() && !super::VAR_KEYWORDS.contains(kind) && !super::ENDS.contains(kind)
+    kind.is_keyword() && !super::VAR_KEYWORDS.contains(kind) && !super::DECLARATION_ENDS.contains(kind)
 }
 
 /// Whether a name begins `n` tokens on: a name, or `#` and a name.

@@ -5,7 +5,8 @@ use super::super::kind::{NodeKind, TokenKind};
 use super::super::parser::{Marker, Parser};
 use super::declarations::at_boundary;
 use super::expressions::{
-    assigned_value, at_daring_name, expression, opt_assignment_operator, range_or_expression, variable,
+    assigned_value, at_daring_name, expression, opt_assignment_operator, peripheral_follows, range_or_expression,
+    variable,
 };
 use super::names::{any_name, is_name, nth_is_name};
 use super::{ENDS, STATEMENT_ENDS, STATEMENT_KEYWORDS, error_token, skip_while};
@@ -109,7 +110,8 @@ fn jump(p: &mut Parser<'_>) {
 
 fn label_or_expression(p: &mut Parser<'_>) {
     let marker = p.start();
-    if is_name(p.current()) && p.nth(1) == TokenKind::Colon {
+    let quoted = p.at(TokenKind::WString) && peripheral_follows(p);
+    if is_name(p.current()) && p.nth(1) == TokenKind::Colon && !quoted {
         any_name(p);
         p.bump();
         p.complete(marker, NodeKind::LabelStatement);

@@ -329,6 +329,22 @@ fn configurations_and_namespaces() {
 }
 
 #[test]
+fn actions_apart_from_their_pou() {
+    let parse = file("PROGRAM p END_PROGRAM ACTIONS p ACTION a x := 1; END_ACTION END_ACTIONS ACTION p.b: END_ACTION");
+    let source = SourceFile::of(&parse.tree);
+    let names = source.declarations().map(|declaration| match declaration {
+        Declaration::Pou(pou) => (pou.kind(), pou.name().map_or("", |name| name.text())),
+        other => panic!("{other:?}"),
+    });
+    let wanted = [(PouKind::Program, "p"), (PouKind::Action, "a"), (PouKind::Action, "p.b")];
+    assert_eq!(names.collect::<Vec<_>>(), wanted);
+    assert_eq!(
+        source.action_blocks().filter_map(|block| block.pou()).map(|name| name.text()).collect::<Vec<_>>(),
+        ["p"]
+    );
+}
+
+#[test]
 fn a_tree_can_be_shared_between_threads() {
     fn shared<T: Send + Sync + 'static>(_: &T) {}
     shared(&file("VAR a : INT; END_VAR"));
