@@ -60,13 +60,15 @@ fn typeset(world: &world::Manual, options: &Options) -> Result<(Vec<u8>, usize, 
     let compiled = typst::compile::<PagedDocument>(world);
     let warnings = world.describe_all(&compiled.warnings);
     let document = compiled.output.map_err(|list| Error::Template(world.describe_all(&list)))?;
-    let bytes = typst_pdf::pdf(&document, &export(options)?).map_err(|list| Error::Export(world.describe_all(&list)))?;
+    let bytes =
+        typst_pdf::pdf(&document, &export(options)?).map_err(|list| Error::Export(world.describe_all(&list)))?;
     Ok((bytes, document.pages().len(), warnings))
 }
 
 /// The options of the export.
 fn export(options: &Options) -> Result<PdfOptions, Error> {
-    let standards = PdfStandards::new(options.standard.list()).map_err(|error| Error::Standard(error.message().to_string()))?;
+    let standards =
+        PdfStandards::new(options.standard.list()).map_err(|error| Error::Standard(error.message().to_string()))?;
     Ok(PdfOptions {
         creator: typst::foundations::Smart::Custom(Some(options.creator.clone())),
         timestamp: options.date.and_then(Date::timestamp),

@@ -165,7 +165,8 @@ fn extends_in_time() -> TableView {
 
 /// A table with this many columns and rows.
 pub(super) fn big_table(name: &str, columns: usize, rows: usize) -> TableView {
-    let head = |index: usize| column(if index % 2 == 0 { "input" } else { "output" }, &format!("nColumn{index}"), "INT");
+    let head =
+        |index: usize| column(if index % 2 == 0 { "input" } else { "output" }, &format!("nColumn{index}"), "INT");
     let line = |index: usize| {
         let cells: Vec<String> = (0..columns).map(|column| format!("{}", index * 3 + column)).collect();
         let cells: Vec<&str> = cells.iter().map(String::as_str).collect();
@@ -201,7 +202,8 @@ fn cylinder() -> EntityView {
         ],
         derived: vec![inheritance::Derived { node: node("FB_CylinderSafe"), implements: false }],
     };
-    let mut core = core("function-block", "Function block", "FB_Cylinder", "A double-acting cylinder with two end positions.");
+    let mut core =
+        core("function-block", "Function block", "FB_Cylinder", "A double-acting cylinder with two end positions.");
     core.badges = vec!["abstract".to_owned(), "deprecated".to_owned()];
     core.diagram = Some(diagram(&interface::draw(&block)));
     core.signature = "{attribute 'reflection'}\nFUNCTION_BLOCK ABSTRACT FB_Cylinder EXTENDS FB_Actuator IMPLEMENTS I_Cylinder\nVAR_INPUT\n    bExtend : BOOL R_EDGE; // go\n    tTimeout : TIME := T#2s;\nEND_VAR".to_owned();
@@ -220,12 +222,20 @@ fn cylinder() -> EntityView {
         section("input", "Inputs", vec![variable("bExtend", "BOOL R_EDGE", "", "Extends on a rising edge."), timeout]),
         section("output", "Outputs", vec![state, variable("bAlarm", "BOOL", "FALSE", "The move took too long.")]),
         section("in-out", "In-outs", vec![axis]),
-        section("var", "Variables", vec![variable("fbTimerWhichHasAnUnusuallyLongNameForAnInternalVariable", "TON", "(PT := T#1s)", "")]),
+        section(
+            "var",
+            "Variables",
+            vec![variable("fbTimerWhichHasAnUnusuallyLongNameForAnInternalVariable", "TON", "(PT := T#1s)", "")],
+        ),
     ];
     let mut out = entity(core);
     out.inheritance = inheritance::draw(&hierarchy).map(|drawing| diagram(&drawing));
     out.relations = vec![
-        Relation { key: "extends", title: "Extends", links: vec![link("FB_Actuator", "Function block", "e:FB_Actuator")] },
+        Relation {
+            key: "extends",
+            title: "Extends",
+            links: vec![link("FB_Actuator", "Function block", "e:FB_Actuator")],
+        },
         Relation {
             key: "used-by",
             title: "Used by",
@@ -283,8 +293,16 @@ fn cylinder_detail() -> Vec<Block> {
                 ListItem { checked: None, content: vec![paragraph("fourth")] },
             ],
         },
-        Block::Code { language: "st".to_owned(), text: "IF fbCylinder.eState = E_CylinderState.Extended THEN\n    nCount := nCount + 1; // one more\nEND_IF".to_owned() },
-        Block::Note { style: "warning".to_owned(), title: "Warning".to_owned(), content: vec![paragraph("Keep hands off.")] },
+        Block::Code {
+            language: "st".to_owned(),
+            text: "IF fbCylinder.eState = E_CylinderState.Extended THEN\n    nCount := nCount + 1; // one more\nEND_IF"
+                .to_owned(),
+        },
+        Block::Note {
+            style: "warning".to_owned(),
+            title: "Warning".to_owned(),
+            content: vec![paragraph("Keep hands off.")],
+        },
         Block::Table {
             align: vec!["left", "right"],
             head: vec![text("Pressure"), text("Time")],
@@ -293,12 +311,17 @@ fn cylinder_detail() -> Vec<Block> {
         Block::Quote { content: vec![paragraph("What moves can be stuck.")] },
         Block::Definitions { items: vec![(text("stroke"), vec![paragraph("the way between the end positions")])] },
         Block::Rule,
-        Block::Paragraph { content: vec![
-            Inline::Emph { content: text("emphasis") }, Inline::Break,
-            Inline::Strong { content: text("strong") }, Inline::Break,
-            Inline::Strike { content: text("struck") }, Inline::Break,
-            Inline::Image { source: "valve.png".to_owned(), alt: "the valve".to_owned() },
-        ] },
+        Block::Paragraph {
+            content: vec![
+                Inline::Emph { content: text("emphasis") },
+                Inline::Break,
+                Inline::Strong { content: text("strong") },
+                Inline::Break,
+                Inline::Strike { content: text("struck") },
+                Inline::Break,
+                Inline::Image { source: "valve.png".to_owned(), alt: "the valve".to_owned() },
+            ],
+        },
     ]
 }
 
@@ -330,7 +353,9 @@ fn source() -> SourceView {
         anchor: String::new(),
         file: "Pneumatics/Cylinders/FB_Cylinder.TcPOU".to_owned(),
         first_line: 40,
-        text: "fbTimer(IN := bExtend, PT := tTimeout);\nIF fbTimer.Q THEN\n\tbAlarm := TRUE; // sourceListingMark\nEND_IF".to_owned(),
+        text:
+            "fbTimer(IN := bExtend, PT := tTimeout);\nIF fbTimer.Q THEN\n\tbAlarm := TRUE; // sourceListingMark\nEND_IF"
+                .to_owned(),
         runs: vec![Run { start: 0, end: 7, class: RunClass::Name, link: None }],
         links: Vec::new(),
         note: None,
@@ -543,18 +568,31 @@ fn large_entity(index: usize) -> EntityView {
     };
     let mut core = core("function-block", "Function block", &name, "A block that does something useful in a machine.");
     core.diagram = Some(diagram(&interface::draw(&block(&name, 8))));
-    core.signature = format!("FUNCTION_BLOCK {name} EXTENDS FB_Base\nVAR_INPUT\n    bEnable : BOOL; // on\n    fSetpoint : LREAL := 1.5;\nEND_VAR");
+    core.signature = format!(
+        "FUNCTION_BLOCK {name} EXTENDS FB_Base\nVAR_INPUT\n    bEnable : BOOL; // on\n    fSetpoint : LREAL := 1.5;\nEND_VAR"
+    );
     core.detail = vec![
-        paragraph("It is called once a cycle and keeps its state between the calls, so that nothing is lost when the machine stops and goes on later."),
-        Block::Code { language: "st".to_owned(), text: "fbBlock(bEnable := TRUE);\nIF fbBlock.bReady THEN\n    nStep := 2;\nEND_IF".to_owned() },
+        paragraph(
+            "It is called once a cycle and keeps its state between the calls, so that nothing is lost when the machine stops and goes on later.",
+        ),
+        Block::Code {
+            language: "st".to_owned(),
+            text: "fbBlock(bEnable := TRUE);\nIF fbBlock.bReady THEN\n    nStep := 2;\nEND_IF".to_owned(),
+        },
     ];
-    core.sections = vec![section("input", "Inputs", variables(&name, 8)), section("output", "Outputs", variables(&format!("{name}.out"), 4))];
+    core.sections = vec![
+        section("input", "Inputs", variables(&name, 8)),
+        section("output", "Outputs", variables(&format!("{name}.out"), 4)),
+    ];
     let mut out = entity(core);
     out.folder = vec![format!("Folder{}", index / 30)];
     out.relations = vec![Relation {
         key: "used-by",
         title: "Used by",
-        links: (1..6).map(|step| index.saturating_sub(step)).map(|other| link(&format!("FB_Block{other}"), "Function block", &format!("e:FB_Block{other}"))).collect(),
+        links: (1..6)
+            .map(|step| index.saturating_sub(step))
+            .map(|other| link(&format!("FB_Block{other}"), "Function block", &format!("e:FB_Block{other}")))
+            .collect(),
     }];
     out.members = (0..5)
         .map(|member| {

@@ -125,7 +125,10 @@ mod tests {
         let broken = json!({ "kind": "broken", "target": "x" });
         let site = json!({ "kind": "external", "url": "https://example.org" });
         let value = clean(json!([{ "to": page }, { "to": broken }, { "to": site }, { "to": null }]));
-        assert_eq!(value, json!([{ "to": null }, { "to": null }, { "to": { "url": "https://example.org" } }, { "to": null }]));
+        assert_eq!(
+            value,
+            json!([{ "to": null }, { "to": null }, { "to": { "url": "https://example.org" } }, { "to": null }])
+        );
     }
 
     #[test]
