@@ -14,7 +14,7 @@ use crate::book::view::table::TableView;
 /// The margin at the left and the right of a page, in points.
 pub(super) const MARGIN: f64 = 62.0;
 /// The advance of a monospaced character in em.
-const ADVANCE: f64 = 0.602;
+const ADVANCE: f64 = 0.6021;
 /// The size of code in parameter tables.
 const CODE: f64 = 8.0;
 /// The space left and right of a cell's text.
@@ -38,26 +38,16 @@ impl Space {
     }
 }
 
-/// The longest words that the columns of a parameter table hold.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Limits {
-    name: usize,
-    type_: usize,
-    value: usize,
-}
-
-/// The columns of a parameter table, and the longest words they hold.
-pub(super) fn section(view: &SectionView, space: Space) -> (Value, Limits) {
+/// The columns of a parameter table: `{ name, type, initial, address, brief }`, null for those that are empty.
+pub(super) fn section(view: &SectionView, space: Space) -> Value {
     let longest = |length: fn(&VariableView) -> usize| view.variables.iter().map(length).max().unwrap_or(0);
     let name = column(longest(|variable| variable.name.chars().count()), 64.0, 172.0);
     let type_ = column(longest(|variable| type_length(&variable.type_)), 46.0, 132.0);
     let initial = column(longest(|variable| variable.initial.chars().count()), 48.0, 86.0);
     let address = column(longest(|variable| variable.address.chars().count()), 48.0, 70.0);
     let used = [name, type_, initial, address].into_iter().flatten().sum::<f64>();
-    let limits =
-        Limits { name: fitting(name, CODE), type_: fitting(type_, CODE), value: fitting(initial.or(address), CODE) };
     let rest = (space.portrait - used).max(90.0);
-    (json!({ "name": name, "type": type_, "initial": initial, "address": address, "brief": rest }), limits)
+    json!({ "name": name, "type": type_, "initial": initial, "address": address, "brief": rest })
 }
 
 /// The width of a column of code; `None` if there is none.
@@ -68,43 +58,53 @@ fn column(characters: usize, least: f64, most: f64) -> Option<f64> {
 /// The width of a cell of code.
 #[expect(clippy::cast_precision_loss, reason = "cells have fewer than 2^52 characters")]
 fn width(characters: usize, size: f64) -> f64 {
-    characters as f64 * ADVANCE * size + INSET
+    (characters as f64 * ADVANCE * size + INSET + 0.5).ceil()
 }
 
-/// How many characters of code a column holds.
+/// How many characters of code a planned column holds.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "widths are those of a page")]
-fn fitting(width: Option<f64>, size: f64) -> usize {
-    width.map_or(usize::MAX, |width| ((width - INSET) / (ADVANCE * size)).floor().max(1.0) as usize)
+fn fitting(columns: &Value, key: &str) -> usize {
+    let width = columns.get(key).and_then(Value::as_f64);
+    width.map_or(usize::MAX, |width| ((width - INSET) / (ADVANCE * CODE)).floor().max(1.0) as usize)
 }
 
 fn type_length(parts: &[TypePart]) -> usize {
     parts.iter().map(|part| part.text.chars().count()).sum()
 }
 
-/// Lets the long words of a variable's row be broken.
-pub(super) fn fit(variable: &mut Value, limits: Limits) {
-    let Value::Object(variable) = variable else { return };
-    for (key, value) in variable.iter_mut() {
-        match (key.as_str(), value) {
-            ("name", Value::String(text)) => *text = soften(text, limits.name),
-            ("initial" | "address", Value::String(text)) => *text = soften(text, limits.value),
-            ("type_", Value::Array(parts)) => {
-                parts.iter_mut().filter_map(|part| part.get_mut("text")).for_each(|text| {
-                    if let Value::String(text) = text {
-                        *text = soften(text, limits.type_);
-                    }
-                })
-            }
-            _ => {}
-        }
+/// Lets the words of a parameter table be broken where they are longer than their column holds.
+pub(super) fn fit_section(section: &mut Value) {
+    let columns = section.get("columns").cloned().unwrap_or_default();
+    let limit = |key| fitting(&columns, key);
+    let (name, type_, initial, address) = (limit("name"), limit("type"), limit("initial"), limit("address"));
+    each(section, "variables", &mut |variable| {
+        soften_field(variable, "name", name);
+        soften_field(variable, "initial", initial);
+        soften_field(variable, "address", address);
+        each(variable, "type_", &mut |part| soften_field(part, "text", type_));
+    });
+}
+
+/// Does something with each element of a list in a field.
+fn each(value: &mut Value, key: &str, f: &mut dyn FnMut(&mut Value)) {
+    if let Some(Value::Array(list)) = value.get_mut(key) {
+        list.iter_mut().for_each(f);
+    }
+}
+
+/// Lets the words of a field be broken.
+fn soften_field(value: &mut Value, key: &str, limit: usize) {
+    if let Some(Value::String(text)) = value.get_mut(key) {
+        *text = soften(text, limit);
     }
 }
 
 /// Lets words longer than this be broken, by zero-width spaces: after `_`, `.`, `/` and before a
 /// capital, and anywhere else if such a place does not come in time.
 pub(super) fn soften(text: &str, limit: usize) -> String {
+    let text = &text.replace('\u{200b}', "");
     if text.split_whitespace().all(|word| word.len() <= limit || word.chars().count() <= limit) {
-        return text.to_owned();
+        return text.clone();
     }
     let mut out = String::with_capacity(text.len() + 16);
     for piece in text.split_inclusive(char::is_whitespace) {
@@ -144,15 +144,25 @@ pub(super) fn table(view: &TableView, space: Space) -> Value {
     });
     whole.unwrap_or_else(|| {
         let frame = Frame::new(view, 7.0, space.landscape);
-        frame.plan(true, split(frame.columns(view), frame.room()))
+        frame.plan(true, split(&frame.columns(view), frame.room()))
     })
 }
 
-/// Cuts columns into parts that fit.
-fn split(columns: Vec<f64>, room: f64) -> Vec<(usize, Vec<f64>)> {
+/// Cuts columns into parts that fit, about equally wide.
+fn split(columns: &[f64], room: f64) -> Vec<(usize, Vec<f64>)> {
+    let parts = cut(columns, room).len();
+    #[expect(clippy::cast_precision_loss, reason = "a table has few parts")]
+    let even = columns.iter().sum::<f64>() / parts.max(1) as f64;
+    let widest = columns.iter().copied().fold(0.0, f64::max);
+    let balanced = cut(columns, (even + widest).min(room));
+    if balanced.len() == parts { balanced } else { cut(columns, room) }
+}
+
+/// Cuts columns as late as the room allows.
+fn cut(columns: &[f64], room: f64) -> Vec<(usize, Vec<f64>)> {
     let mut parts: Vec<(usize, Vec<f64>)> = Vec::new();
     let mut used = f64::INFINITY;
-    for (index, width) in columns.into_iter().enumerate() {
+    for (index, &width) in columns.iter().enumerate() {
         if used + width > room {
             parts.push((index, Vec::new()));
             used = 0.0;
@@ -234,22 +244,30 @@ fn needed(text: &str) -> usize {
     if length <= ONE_LINE { length.min(word.max(WORD)) } else { ONE_LINE }
 }
 
+/// The longest name of a column that its header shows whole: a header is repeated on every page.
+const HEAD: usize = 96;
+
+/// Cuts a column's name if it is long; the whole goes to `full`, for a legend.
+fn clip_head(column: &mut Value) {
+    let Value::Object(column) = column else { return };
+    let name = column.get("name").and_then(Value::as_str).unwrap_or_default().replace('\u{200b}', "");
+    if name.chars().count() > HEAD {
+        let short: String = name.chars().take(HEAD - 1).chain(['…']).collect();
+        column.insert("name".to_owned(), short.into());
+        column.insert("full".to_owned(), name.into());
+    }
+}
+
 /// Lets the long words of a test table be broken.
 pub(super) fn fit_table(table: &mut Value) {
-    let soft = |value: &mut Value, key: &str| {
-        if let Some(Value::String(text)) = value.get_mut(key) {
-            *text = soften(text, WORD);
-        }
-    };
-    let lists = |value: &mut Value, key: &str, each: &mut dyn FnMut(&mut Value)| {
-        if let Some(Value::Array(list)) = value.get_mut(key) {
-            list.iter_mut().for_each(each);
-        }
-    };
-    lists(table, "columns", &mut |column| ["name", "type_"].iter().for_each(|key| soft(column, key)));
-    lists(table, "rows", &mut |row| {
-        ["seq", "duration"].iter().for_each(|key| soft(row, key));
-        lists(row, "cells", &mut |cell| soft(cell, "text"));
+    each(table, "columns", &mut |column| {
+        clip_head(column);
+        ["name", "type_"].iter().for_each(|key| soften_field(column, key, WORD));
+        soften_field(column, "full", 60);
+    });
+    each(table, "rows", &mut |row| {
+        ["seq", "duration"].iter().for_each(|key| soften_field(row, key, WORD));
+        each(row, "cells", &mut |cell| soften_field(cell, "text", WORD));
     });
 }
 
@@ -273,8 +291,13 @@ mod tests {
     }
 
     #[test]
-    fn columns_are_cut_where_they_no_longer_fit() {
-        let parts = split(vec![40.0, 40.0, 40.0, 200.0, 10.0], 100.0);
-        assert_eq!(parts, [(0, vec![40.0, 40.0]), (2, vec![40.0]), (3, vec![100.0]), (4, vec![10.0])]);
+    fn columns_are_cut_where_they_no_longer_fit_and_evenly() {
+        let widths = |parts: Vec<(usize, Vec<f64>)>| {
+            parts.into_iter().map(|(first, list)| (first, list.len())).collect::<Vec<_>>()
+        };
+        assert_eq!(widths(cut(&[40.0, 40.0, 40.0, 200.0, 10.0], 100.0)), [(0, 2), (2, 1), (3, 1), (4, 1)]);
+        assert_eq!(widths(cut(&[10.0; 11], 100.0)), [(0, 10), (10, 1)]);
+        assert_eq!(widths(split(&[10.0; 11], 100.0)), [(0, 6), (6, 5)]);
+        assert_eq!(cut(&[200.0], 100.0), [(0, vec![100.0])]);
     }
 }

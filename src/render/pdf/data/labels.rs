@@ -29,7 +29,7 @@ impl Labels {
             book.chapters.iter().for_each(|chapter| out.define(&chapter.label, &chapter.label));
         }
         book.libraries.iter().for_each(|library| out.define(&library.label, &library.label));
-        for entity in &book.entities {
+        for entity in book.entities.iter().filter(|entity| entity.library < book.libraries.len()) {
             out.define_core(&entity.core, parts);
             entity.members.iter().for_each(|member| out.define_core(&member.core, parts));
             for table in &entity.tables {

@@ -35,7 +35,9 @@ pub(super) fn build(book: &Book, options: &Options, fonts: &Fonts) -> Result<Dat
     let space = plan::Space::of(options.paper);
     let mut entities = Vec::with_capacity(book.entities.len());
     for entity in &book.entities {
-        entities.push(cleaned(&mut cleaner, entity_value(entity, options.parts, space)?));
+        let mut value = cleaned(&mut cleaner, entity_value(entity, options.parts, space)?);
+        fit(&mut value);
+        entities.push(value);
     }
     let rest = cleaned(&mut cleaner, rest(book, options.parts)?);
     let mut rest = fields(rest);
@@ -43,7 +45,7 @@ pub(super) fn build(book: &Book, options: &Options, fonts: &Fonts) -> Result<Dat
     runs::arrange(&mut rest, book, entities);
     let files = vec![
         ("data/book.json", bytes(&Value::Object(rest))?),
-        ("data/options.json", bytes(&settings(options, space))?),
+        ("data/options.json", bytes(&settings(book, options, space))?),
     ];
     Ok(Data { files, replaced: cleaner.printable.replaced })
 }
@@ -102,13 +104,12 @@ fn entity_value(entity: &EntityView, parts: Parts, space: plan::Space) -> Result
     }
     if parts.tables {
         for (table, view) in array(&mut out, "tables").iter_mut().zip(&entity.tables) {
-            plan::fit_table(table);
             if let Value::Object(table) = table {
                 table.insert("plan".to_owned(), plan::table(view, space));
             }
         }
     } else {
-        out.insert("tables".to_owned(), Value::Array(Vec::new()));
+        out.insert("tables".to_owned(), json!([]));
     }
     Ok(Value::Object(out))
 }
@@ -125,21 +126,30 @@ fn sections(
     *array(owner, "sections") = kept
         .map(|(mut value, view)| {
             if let Value::Object(section) = &mut value {
-                let (columns, limits) = plan::section(view, space);
-                section.insert("columns".to_owned(), columns);
-                for variable in array(section, "variables") {
-                    plan::fit(variable, limits);
-                }
+                section.insert("columns".to_owned(), plan::section(view, space));
             }
             value
         })
         .collect();
 }
 
+/// Lets long words be broken where their columns ask for it.
+fn fit(entity: &mut Value) {
+    let Value::Object(entity) = entity else { return };
+    array(entity, "tables").iter_mut().for_each(plan::fit_table);
+    array(entity, "sections").iter_mut().for_each(plan::fit_section);
+    for member in array(entity, "members") {
+        if let Value::Object(member) = member {
+            array(member, "sections").iter_mut().for_each(plan::fit_section);
+        }
+    }
+}
+
 /// What the templates need to know of the options.
-fn settings(options: &Options, space: plan::Space) -> Value {
+fn settings(book: &Book, options: &Options, space: plan::Space) -> Value {
     json!({
         "paper": options.paper.name(),
+        "language": language(&book.front.language),
         "text_fonts": options.text_fonts,
         "mono_fonts": options.mono_fonts,
         "margin": plan::MARGIN,
@@ -156,6 +166,13 @@ fn settings(options: &Options, space: plan::Space) -> Value {
             "index": options.parts.index,
         },
     })
+}
+
+/// The first part of a language tag; English where it is none.
+fn language(tag: &str) -> String {
+    let first = tag.split('-').next().unwrap_or_default().to_ascii_lowercase();
+    let valid = (2..=3).contains(&first.len()) && first.bytes().all(|byte| byte.is_ascii_lowercase());
+    if valid { first } else { "en".to_owned() }
 }
 
 /// The list in a field; an absent one is made.

@@ -17,11 +17,12 @@ const LARGE: &[&str] = &["function-block", "program", "class", "gvl"];
 
 /// Moves the entities into their libraries: `libraries[].sections[].runs[].entities[]`.
 pub(super) fn arrange(rest: &mut Map<String, Value>, book: &Book, entities: Vec<Value>) {
-    let mut sections: Vec<Vec<Section>> = book.libraries.iter().map(|_| Vec::new()).collect();
+    let mut sections: Vec<Vec<Section<'_>>> = book.libraries.iter().map(|_| Vec::new()).collect();
     for (view, value) in book.entities.iter().zip(entities) {
         let Some(list) = sections.get_mut(view.library) else { continue };
-        if list.last().is_none_or(|section| section.path != view.folder) {
-            list.push(Section { path: view.folder.clone(), runs: Vec::new() });
+        if list.last().is_none_or(|section| section.folder != view.folder.as_slice()) {
+            let shown = value.get("folder").cloned().unwrap_or_else(|| json!([]));
+            list.push(Section { folder: &view.folder, shown, runs: Vec::new() });
         }
         if let Some(section) = list.last_mut() {
             section.push(value, LARGE.contains(&view.core.kind));
@@ -38,8 +39,10 @@ pub(super) fn arrange(rest: &mut Map<String, Value>, book: &Book, entities: Vec<
 }
 
 /// A folder of a library.
-struct Section {
-    path: Vec<String>,
+struct Section<'a> {
+    folder: &'a [String],
+    /// The folder as it is printed.
+    shown: Value,
     runs: Vec<Run>,
 }
 
@@ -49,7 +52,7 @@ struct Run {
     entities: Vec<Value>,
 }
 
-impl Section {
+impl Section<'_> {
     fn push(&mut self, entity: Value, large: bool) {
         match self.runs.last_mut().filter(|run| !large && !run.large && run.entities.len() < LONGEST) {
             Some(run) => run.entities.push(entity),
@@ -59,13 +62,13 @@ impl Section {
 
     /// The section with its list of entries, which the library has by folder.
     fn value(self, library: &LibraryView, folders: &[Value]) -> Value {
-        let place = library.folders.iter().position(|folder| folder.path == self.path);
+        let place = library.folders.iter().position(|folder| folder.path == self.folder);
         let entries = place.and_then(|index| folders.get(index)).and_then(|folder| folder.get("entities"));
         let runs: Vec<Value> = self
             .runs
             .into_iter()
             .map(|run| json!({ "single": run.entities.len() == 1, "entities": run.entities }))
             .collect();
-        json!({ "path": self.path, "entries": entries.cloned().unwrap_or_else(|| json!([])), "runs": runs })
+        json!({ "path": self.shown, "entries": entries.cloned().unwrap_or_else(|| json!([])), "runs": runs })
     }
 }
