@@ -81,5 +81,6 @@ fn in_order(findings: Vec<Finding>, settings: &Settings) -> Vec<Finding> {
 fn skipped(tree: &Tree) -> (Vec<(String, String)>, usize) {
     let (ours, other): (Vec<_>, Vec<_>) = tree.skipped.iter().partition(|skipped| skipped.code.is_some());
     let ours = ours.into_iter().map(|skipped| (skipped.path.clone(), skipped.reason.to_string())).collect();
-    (ours, other.len())
+    let files = other.into_iter().filter(|skipped| !skipped.path.ends_with('/'));
+    (ours, files.count())
 }

@@ -11,6 +11,7 @@ use crate::library::names::{Names, fold};
 use crate::library::{Catalogue, ItemId, ItemKind};
 use crate::source::{TableFile, Tree};
 use crate::table::codes::{MISSING_TABLE_FILE, UNATTACHED_TABLE};
+use crate::table::lint;
 use crate::table::read::{self, Options, Read};
 use crate::table::{AttachedTable, Piece, Table, TableError};
 use crate::text::FileId;
@@ -57,10 +58,15 @@ fn file(tree: &Tree, table: &TableFile) -> Read {
     let text = &tree.files.get(table.file).text;
     let piece = Piece::verbatim(table.file, text, 0);
     let name = fold(&table.path);
-    if name.ends_with(".md") {
-        return read::pipe::read(&piece, &Options { headless: true, ..Options::default() });
+    let title = name.rsplit('/').next().unwrap_or(&name);
+    let options = Options::default();
+    if name.ends_with(".csv") {
+        return read::sheet::csv(&piece, title, &options);
     }
-    read::gtt::read(&piece, &Options::default())
+    if [".xlsx", ".xls", ".ods"].iter().any(|extension| name.ends_with(extension)) {
+        return read::sheet::workbook(table.file, &table.bytes, &options);
+    }
+    read::text(&piece, &options)
 }
 
 impl Tables {
@@ -78,6 +84,9 @@ impl Tables {
                 let message = format!("test table `{}` belongs to no block", table.name);
                 let help = "name the file after its block, or write `for BLOCK` in the table's heading";
                 self.findings.push(Finding::new(&UNATTACHED_TABLE, table.place, message).help(help));
+            }
+            if !table.has_errors() {
+                self.findings.extend(lint::lint(&table));
             }
             self.tables.push(AttachedTable { table, item, errors });
         }

@@ -209,7 +209,7 @@ fn amount_in_cycles(
 }
 
 fn unknown_constant(name: &str, constants: &BTreeMap<String, Quantity>) -> Uncounted {
-    let near = super::near::nearest(name, constants.keys().map(String::as_str));
+    let near = crate::text::near::nearest(name, constants.keys().map(String::as_str));
     let help = near.map_or_else(
         || format!("declare it in the heading: `const {name} = 5`"),
         |near| format!("the table declares `{near}`"),

@@ -14,7 +14,6 @@ pub mod explain;
 pub mod layout;
 pub mod lint;
 pub mod model;
-mod near;
 pub mod piece;
 pub mod read;
 pub mod run;

@@ -7,6 +7,7 @@
 pub mod decode;
 pub mod files;
 pub mod line_index;
+pub mod near;
 pub mod span;
 pub mod unit;
 

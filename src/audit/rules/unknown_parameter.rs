@@ -18,8 +18,9 @@
 
 use crate::audit::{Context, Rule};
 use crate::diagnostic::{Code, Finding, Severity};
-use crate::library::names::{fold, lineage};
+use crate::library::names::lineage;
 use crate::library::{Catalogue, ItemId};
+use crate::text::near::nearest;
 
 /// The code.
 pub static CODE: Code =
@@ -39,10 +40,9 @@ fn check(context: &Context<'_>, out: &mut Vec<Finding>) {
             if param.target.is_some() {
                 continue;
             }
-            let wanted = fold(&param.name);
             let message = format!("`{}` has no parameter `{}`", item.name, param.name);
             let mut finding = Finding::new(&CODE, param.place, message);
-            if let Some(near) = nearest(&wanted, &names) {
+            if let Some(near) = nearest(&param.name, names.iter().copied()) {
                 finding = finding.help(format!("did you mean `{near}`?"));
             }
             out.push(finding);
@@ -58,27 +58,4 @@ fn names(catalogue: &Catalogue, id: ItemId) -> Vec<&str> {
         item.variables.iter().chain(accessors.flat_map(|child| &child.variables))
     });
     own.map(|variable| variable.name.as_str()).collect()
-}
-
-/// The name that differs least, if it differs by no more than a third of its letters.
-fn nearest<'a>(wanted: &str, names: &[&'a str]) -> Option<&'a str> {
-    let distance = |name: &&str| edit_distance(wanted, &fold(name));
-    let best = names.iter().copied().min_by_key(|name| distance(name))?;
-    (distance(&best) * 3 <= wanted.chars().count().max(3)).then_some(best)
-}
-
-/// The number of insertions, deletions and replacements (Wagner and Fischer, 1974).
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }

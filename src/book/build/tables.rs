@@ -5,6 +5,7 @@ use super::{Context, prose};
 use crate::book::view::prose::{Block, Inline};
 use crate::book::view::table::{BracketView, CellView, ColumnView, RowView, TableView, VerdictView};
 use crate::library::ItemId;
+use crate::table::explain;
 use crate::table::layout::{self, DurationText, Layout, Role};
 use crate::table::model::ColumnKind;
 use crate::table::{AttachedTable, Table};
@@ -71,7 +72,8 @@ fn columns(layout: &Layout) -> Vec<ColumnView> {
 
 fn rows(context: &Context<'_>, attached: &AttachedTable, layout: &Layout) -> Vec<RowView> {
     let own = attached.table.rows();
-    let row = |(i, line): (usize, &layout::Line)| RowView {
+    let mut sentences = explain::sentences(&attached.table).into_iter();
+    let mut row = |(i, line): (usize, &layout::Line)| RowView {
         seq: line.id.clone(),
         cells: line
             .cells
@@ -90,11 +92,11 @@ fn rows(context: &Context<'_>, attached: &AttachedTable, layout: &Layout) -> Vec
             })
             .collect(),
         duration: duration(&line.duration),
-        duration_meaning: String::new(),
+        duration_meaning: own.get(i).map_or(String::new(), |row| explain::duration(&row.duration)),
         remark: remark(context, &line.remark),
-        sentence: String::new(),
+        sentence: sentences.next().unwrap_or_default(),
     };
-    layout.rows.iter().enumerate().map(row).collect()
+    layout.rows.iter().enumerate().map(&mut row).collect()
 }
 
 fn remark(context: &Context<'_>, text: &str) -> Vec<Inline> {

@@ -9,8 +9,8 @@ use crate::table::cell::{self, CellError, Context, ast::ChunkKind, ast::ExprKind
 use crate::table::codes;
 use crate::table::duration::{self, Bounds, Duration, DurationCell, Flag, Uncounted};
 use crate::table::model::{Cell, Column, CycleTime, Global, Node, Quantity, Row, Subject, Table, TimeConstant, Word};
-use crate::table::near::nearest;
 use crate::table::piece::Piece;
+use crate::text::near::nearest;
 use crate::text::{Place, SpanMap};
 
 /// A table in the making.

@@ -8,8 +8,8 @@ use crate::diagnostic::Finding;
 use crate::table::cell::literal;
 use crate::table::codes;
 use crate::table::model::{CycleTime, Quantity, TimeConstant, Word};
-use crate::table::near::nearest;
 use crate::table::piece::Piece;
+use crate::text::near::nearest;
 
 const KEYWORDS: [&str; 9] = ["cycle", "strict", "weak", "concrete", "const", "global", "for", "runs", "option"];
 

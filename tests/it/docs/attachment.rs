@@ -87,7 +87,7 @@ fn comments_are_attached_as_people_read_them() {
     for label in &labels {
         let project = projects.entry(label.repository).or_insert_with(|| {
             let disk = Disk::new(Path::new(&root).join(label.repository)).expect("the tree is there");
-            rungbook::pipeline::read(&disk, label.repository, &settings(), &|_| {})
+            rungbook::pipeline::read(&disk, label.repository, &settings(""), &|_| {})
         });
         let Label { repository, path, line, name, placement, lines, .. } = label;
         match find(project, label) {

@@ -1,7 +1,8 @@
 //! The nearest name to a misspelt one: least edit distance (Levenshtein 1966), where it is small enough to be meant.
 
 /// The name among `names` that `wanted` is most likely a misspelling of.
-pub(super) fn nearest<'n>(wanted: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+#[must_use]
+pub fn nearest<'n>(wanted: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n str> {
     let upper = wanted.to_uppercase();
     let limit = upper.chars().count() / 3 + 1;
     names
