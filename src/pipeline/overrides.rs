@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::book::Narrative;
+use crate::library::Library;
 use crate::source::{EntryKind, FileSystem};
 use crate::text::decode;
 
@@ -30,6 +31,16 @@ pub(super) fn narratives(fs: &dyn FileSystem, folder: &str) -> Vec<Narrative> {
     paths.sort_by_key(|path| (!path.ends_with("/index.md"), path.matches('/').count(), path.clone()));
     let read = |path: String| text(fs, &path).map(|text| Narrative { path, text });
     paths.into_iter().filter_map(read).collect()
+}
+
+/// Describes each library that has no words of its own by the `README.md` in its folder.
+pub(super) fn descriptions(fs: &dyn FileSystem, libraries: &mut [Library]) {
+    for library in libraries.iter_mut().filter(|library| library.description.is_empty()) {
+        let names = ["README.md", "Readme.md", "readme.md"];
+        let folder = if library.path.is_empty() { String::new() } else { format!("{}/", library.path) };
+        let found = names.iter().find_map(|name| text(fs, &format!("{folder}{name}")));
+        library.description = found.unwrap_or_default();
+    }
 }
 
 fn text(fs: &dyn FileSystem, path: &str) -> Option<String> {

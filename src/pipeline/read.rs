@@ -13,7 +13,8 @@ use crate::source::{FileSystem, Progress, Tree, read_tree};
 pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Events<'_>) -> Project {
     let mut tree = walk(fs, settings, events);
     events(Event::Stage { name: "parsing", total: tree.units.len() });
-    let libraries = libraries::of(&tree, name);
+    let mut libraries = libraries::of(&tree, name);
+    overrides::descriptions(fs, &mut libraries.list);
     let units: Vec<_> = tree.units.iter().zip(libraries.of_unit.iter().copied()).collect();
     let lowered = lower::units(&units, libraries.list, &tree.files, &|n| events(Event::Advance(n)));
     let (mut catalogue, mut findings) = (lowered.catalogue, lowered.findings);

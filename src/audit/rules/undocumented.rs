@@ -27,6 +27,7 @@
 
 use crate::audit::{Context, Rule};
 use crate::diagnostic::{Code, Finding, Severity};
+use crate::library::ItemKind;
 
 /// The code.
 pub static CODE: Code =
@@ -38,7 +39,8 @@ pub const RULE: Rule = Rule { code: &CODE, default: true, check };
 fn check(context: &Context<'_>, out: &mut Vec<Finding>) {
     for (id, item, entry) in context.described() {
         let missing = entry.doc.is_none() && entry.placeholder.is_none();
-        if item.parent.is_none() && missing && context.is_public(id) {
+        let task = item.kind == ItemKind::Task;
+        if item.parent.is_none() && !task && missing && context.is_public(id) {
             let message = format!("{} `{}` has no documentation", item.kind.label().to_lowercase(), item.name);
             let help = "put a comment above its header, directly below it, or after its last `END_VAR`";
             out.push(Finding::new(&CODE, item.place, message).help(help));

@@ -47,9 +47,10 @@ fn folder_name(context: &Context<'_>, id: ItemId) -> String {
     std::iter::once(library.as_str()).chain(item.folder.iter().map(String::as_str)).collect::<Vec<_>>().join(" / ")
 }
 
-/// Whether an item has documentation.
+/// Whether an item has documentation. What there is to say of a task stands in its settings.
 pub(crate) fn is_documented(context: &Context<'_>, id: ItemId) -> bool {
-    context.input.docs.items[id.0 as usize].doc.is_some()
+    let task = context.catalogue().item(id).kind == ItemKind::Task;
+    task || context.input.docs.item(id).doc.is_some()
 }
 
 fn count(context: &Context<'_>, id: ItemId) -> CoverageRow {

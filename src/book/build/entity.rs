@@ -75,7 +75,7 @@ fn core(context: &Context<'_>, id: ItemId) -> CoreView {
         label: address.label.clone(),
         file: context.input.files.get(item.place.file).path.clone(),
         line: context.input.files.line_column(item.place).line,
-        documented: doc.is_some(),
+        documented: super::coverage::is_documented(context, id),
         badges: badges(context, id),
         brief: doc.map_or(Vec::new(), |doc| prose::inlines(context, &doc.brief)),
         detail: doc.map_or(Vec::new(), |doc| detail(context, doc)),
