@@ -31,6 +31,8 @@ pub enum Declaration<'t> {
     Pou(Pou<'t>),
     /// A property that stands alone.
     Property(Property<'t>),
+    /// Actions of a POU, apart from it.
+    Actions(Actions<'t>),
     /// A transition that stands alone.
     Transition(Transition<'t>),
     /// A block of types.
@@ -55,6 +57,7 @@ impl<'t> Declaration<'t> {
     pub fn cast(node: Node<'t>) -> Option<Self> {
         Some(match node.kind() {
             NodeKind::Property => Self::Property(Property::cast(node)?),
+            NodeKind::Actions => Self::Actions(Actions::cast(node)?),
             NodeKind::Transition => Self::Transition(Transition::cast(node)?),
             NodeKind::TypeBlock => Self::Types(TypeBlock(node)),
             NodeKind::VarSection => Self::Variables(VarSection::cast(node)?),
@@ -73,6 +76,7 @@ impl<'t> Declaration<'t> {
         match self {
             Self::Pou(it) => it.node(),
             Self::Property(it) => it.node(),
+            Self::Actions(it) => it.node(),
             Self::Transition(it) => it.node(),
             Self::Types(it) => it.node(),
             Self::Variables(it) => it.node(),
@@ -85,15 +89,6 @@ impl<'t> Declaration<'t> {
     }
 }
 
-/// The declarations below `node`, with those in blocks of actions.
-fn declarations<'t>(node: Node<'t>) -> impl Iterator<Item = Declaration<'t>> + use<'t> {
-    node.children().flat_map(|child| {
-        let block = Actions::cast(child);
-        let alone = block.is_none().then(|| Declaration::cast(child)).flatten();
-        alone.into_iter().chain(block.into_iter().flat_map(Actions::actions).map(Declaration::Pou))
-    })
-}
-
 impl<'t> SourceFile<'t> {
     /// The file that `tree` is.
     #[must_use]
@@ -101,14 +96,9 @@ impl<'t> SourceFile<'t> {
         Self(tree.root())
     }
 
-    /// What stands in it, in order; the actions of an `ACTIONS` block among them.
+    /// What stands in it, in order.
     pub fn declarations(self) -> impl Iterator<Item = Declaration<'t>> {
-        declarations(self.0)
-    }
-
-    /// The blocks of actions that stand apart from their POU.
-    pub fn action_blocks(self) -> impl Iterator<Item = Actions<'t>> {
-        children(self.0)
+        self.0.children().filter_map(Declaration::cast)
     }
 
     /// Its body, where it was parsed as one, or where statements stand bare.
@@ -327,9 +317,9 @@ impl<'t> Namespace<'t> {
         modifiers(self.0)
     }
 
-    /// What stands in it, in order; the actions of an `ACTIONS` block among them.
+    /// What stands in it, in order.
     pub fn declarations(self) -> impl Iterator<Item = Declaration<'t>> {
-        declarations(self.0)
+        self.0.children().filter_map(Declaration::cast)
     }
 }
 

@@ -331,17 +331,13 @@ fn configurations_and_namespaces() {
 #[test]
 fn actions_apart_from_their_pou() {
     let parse = file("PROGRAM p END_PROGRAM ACTIONS p ACTION a x := 1; END_ACTION END_ACTIONS ACTION p.b: END_ACTION");
-    let source = SourceFile::of(&parse.tree);
-    let names = source.declarations().map(|declaration| match declaration {
-        Declaration::Pou(pou) => (pou.kind(), pou.name().map_or("", |name| name.text())),
-        other => panic!("{other:?}"),
-    });
-    let wanted = [(PouKind::Program, "p"), (PouKind::Action, "a"), (PouKind::Action, "p.b")];
-    assert_eq!(names.collect::<Vec<_>>(), wanted);
-    assert_eq!(
-        source.action_blocks().filter_map(|block| block.pou()).map(|name| name.text()).collect::<Vec<_>>(),
-        ["p"]
-    );
+    let declarations: Vec<Declaration<'_>> = SourceFile::of(&parse.tree).declarations().collect();
+    let [Declaration::Pou(program), Declaration::Actions(block), Declaration::Pou(alone)] = declarations[..] else {
+        panic!("{declarations:?}")
+    };
+    assert_eq!((program.kind(), block.pou().map(|name| name.text())), (PouKind::Program, Some("p")));
+    assert_eq!(block.actions().filter_map(|action| action.name()).map(|name| name.text()).collect::<Vec<_>>(), ["a"]);
+    assert_eq!((alone.kind(), alone.name().map(|name| name.text())), (PouKind::Action, Some("p.b")));
 }
 
 #[test]
