@@ -165,8 +165,9 @@ fn extends_in_time() -> TableView {
 
 /// A table with this many columns and rows.
 pub(super) fn big_table(name: &str, columns: usize, rows: usize) -> TableView {
-    let head =
-        |index: usize| column(if index % 2 == 0 { "input" } else { "output" }, &format!("nColumn{index}"), "INT");
+    let head = |index: usize| {
+        column(if index.is_multiple_of(2) { "input" } else { "output" }, &format!("nColumn{index}"), "INT")
+    };
     let line = |index: usize| {
         let cells: Vec<String> = (0..columns).map(|column| format!("{}", index * 3 + column)).collect();
         let cells: Vec<&str> = cells.iter().map(String::as_str).collect();

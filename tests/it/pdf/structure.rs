@@ -90,3 +90,18 @@ fn tags_carry_the_words_of_the_drawings() {
     let Some(objects) = objects_of(&out) else { return };
     assert!(objects.contains("/StructTreeRoot") && objects.contains("/Alt"));
 }
+
+#[test]
+fn a_manual_of_many_blocks_settles() {
+    let out = manual(&fixture::large(16), &options());
+    assert!(out.pages > 50, "{} pages", out.pages);
+    let Some(text) = text_of(&out) else { return };
+    assert!((0..16).all(|index| text.contains(&format!("FB_Block{index}"))));
+    assert_eq!(text.matches("FUNCTION BLOCK").count(), 16);
+}
+
+#[test]
+#[ignore = "takes a minute and several gigabytes; for a release build"]
+fn a_manual_of_very_many_blocks_settles() {
+    assert!(manual(&fixture::large(1500), &options()).pages > 5000);
+}
