@@ -43,13 +43,15 @@ impl Lowering<'_> {
     ) -> Option<ItemId> {
         match declaration {
             Declaration::Pou(pou) => {
-                let blocks = || SourceFile::of(tree).action_blocks();
-                let block = || blocks().find(|block| block.span().contains(pou.span()));
-                let owner = || self.owner(block().and_then(|block| block.pou()).map(Name::text));
-                let parent = if pou.kind() == PouKind::Action { owner() } else { None };
+                let parent = if pou.kind() == PouKind::Action { self.owner(None) } else { None };
                 self.pou(tree, fragment, pou, parent)
             }
             Declaration::Property(property) => self.property(tree, fragment, property, None),
+            Declaration::Actions(actions) => {
+                let parent = self.owner(actions.pou().map(Name::text));
+                let added = actions.actions().filter_map(|action| self.pou(tree, fragment, action, parent));
+                added.collect::<Vec<_>>().first().copied()
+            }
             Declaration::Transition(transition) => {
                 let parent = self.owner(None);
                 self.transition(tree, fragment, transition, parent)
