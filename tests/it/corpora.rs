@@ -78,6 +78,10 @@ fn headers(text: &str) -> Vec<(&'static str, String)> {
     for line in bare(text).lines() {
         let words: Vec<&str> = line.split_whitespace().collect();
         let Some(first) = words.first() else { continue };
+        // `PROGRAM instance WITH task : type` in a configuration declares an instance, no program.
+        if words.iter().any(|word| word.eq_ignore_ascii_case("WITH")) {
+            continue;
+        }
         let Some((keyword, _)) = KEYWORDS.iter().find(|(keyword, _)| keyword.eq_ignore_ascii_case(first)) else {
             continue;
         };
