@@ -5,11 +5,11 @@ use tera::Value;
 
 /// A map from the named fields.
 macro_rules! record {
-    ($($key:ident : $value:expr),* $(,)?) => {{
-        let mut map = tera::Map::new();
-        $( map.insert(tera::value::Key::Str(stringify!($key)), tera::Value::from($value)); )*
-        tera::Value::from(map)
-    }};
+    ($($key:ident : $value:expr),* $(,)?) => {
+        tera::Value::from(std::collections::BTreeMap::from([
+            $( (stringify!($key), tera::Value::from($value)), )*
+        ]))
+    };
 }
 pub(super) use record;
 
