@@ -25,11 +25,13 @@ pub struct Rule {
 pub static RULES: &[Rule] = &[
     rules::block_without_table::RULE,
     rules::broken_link::RULE,
+    rules::conditional_pragma::RULE,
     rules::missing_brief::RULE,
     rules::placeholder_documentation::RULE,
     rules::undocumented::RULE,
     rules::undocumented_member::RULE,
     rules::unknown_parameter::RULE,
+    rules::unread_body::RULE,
     rules::unverified_table::RULE,
 ];
 

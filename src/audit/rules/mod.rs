@@ -2,9 +2,11 @@
 
 pub mod block_without_table;
 pub mod broken_link;
+pub mod conditional_pragma;
 pub mod missing_brief;
 pub mod placeholder_documentation;
 pub mod undocumented;
 pub mod undocumented_member;
 pub mod unknown_parameter;
+pub mod unread_body;
 pub mod unverified_table;

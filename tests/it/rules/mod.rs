@@ -2,9 +2,11 @@
 
 mod block_without_table;
 mod broken_link;
+mod conditional_pragma;
 mod missing_brief;
 mod placeholder_documentation;
 mod undocumented;
 mod undocumented_member;
 mod unknown_parameter;
+mod unread_body;
 mod unverified_table;
