@@ -57,6 +57,8 @@ pub(super) struct Chunk {
     pub(super) set_apart: bool,
     /// Whether a chunk stands before it in the same run with an empty line between.
     pub(super) gap_before: bool,
+    /// Whether a statement follows, and no section, declaration or end.
+    pub(super) before_statement: bool,
     /// Whether it is one decorated line, such as `--- Inputs ---`.
     pub(super) decorated: bool,
     /// Whether it is one line of code after another.
@@ -88,6 +90,7 @@ pub(super) fn chunks(catalogue: &Catalogue, comment: &Comment) -> Vec<Chunk> {
                 marker: first.marker,
                 place: catalogue.place(comment.fragment, first.outer.cover(last.outer)),
                 set_apart: is_set_apart(text, last.outer.end),
+                before_statement: is_statement(text.get(last.outer.end as usize..).unwrap_or("")),
                 gap_before: !out.is_empty() && line_breaks(before.of(text)) > 1,
                 decorated: false,
                 code: part.iter().all(|token| token.code),
@@ -170,8 +173,10 @@ fn belongs(text: &str, before: &Token, after: &Token) -> bool {
     let gap = Span::new(before.outer.end, after.outer.start).of(text);
     // The token of a line comment may or may not hold its line break.
     let breaks = line_breaks(gap) + line_breaks(before.outer.of(text)).min(usize::from(before.line));
+    let data = |token: &Token| judge::is_directive(token.inner.of(text));
     let one_line = |token: &Token| token.line || !token.inner.of(text).contains('\n');
-    before.marker == after.marker && before.line == after.line && breaks <= 1 && one_line(before) && one_line(after)
+    let alike = before.marker == after.marker && before.line == after.line;
+    alike && breaks <= 1 && one_line(before) && one_line(after) && !data(before) && !data(after)
 }
 
 /// Cuts code that was commented out off the prose after or before it.
@@ -190,9 +195,22 @@ fn split_code<'a>(text: &str, group: &'a [Token]) -> Vec<&'a [Token]> {
     [&group[..lead], &group[lead..tail], &group[tail..]].into_iter().filter(|part| !part.is_empty()).collect()
 }
 
+/// The bytes of the line break at `at`; 0 if there is none. Some files hold `\r\r\n`, which is one.
+fn line_break(text: &str, at: usize) -> usize {
+    let rest = &text.as_bytes()[at..];
+    let returns = rest.iter().take_while(|byte| **byte == b'\r').count();
+    if rest.get(returns) == Some(&b'\n') { returns + 1 } else { returns.min(1) }
+}
+
 fn line_breaks(text: &str) -> usize {
-    let crlf = text.matches("\r\n").count();
-    text.matches('\n').count() + text.matches('\r').count() - crlf
+    let mut count = 0;
+    let mut at = 0;
+    while at < text.len() {
+        let width = line_break(text, at);
+        count += usize::from(width > 0);
+        at += width.max(1);
+    }
+    count
 }
 
 /// Whether an empty line or nothing follows the comment that ends at `end`.
@@ -203,20 +221,55 @@ fn is_set_apart(text: &str, end: u32) -> bool {
     space.len() == rest.len() || line_breaks(space) + usize::from(own) > 1
 }
 
+/// Whether the text after a comment goes on with a statement.
+fn is_statement(rest: &str) -> bool {
+    const DECLARING: [&str; 18] = [
+        "METHOD",
+        "PROPERTY",
+        "ACTION",
+        "TRANSITION",
+        "PUBLIC",
+        "PRIVATE",
+        "PROTECTED",
+        "INTERNAL",
+        "STRUCT",
+        "UNION",
+        "FUNCTION",
+        "FUNCTION_BLOCK",
+        "PROGRAM",
+        "INTERFACE",
+        "CLASS",
+        "TYPE",
+        "STEP",
+        "INITIAL_STEP",
+    ];
+    let rest = skip_trivia(rest);
+    let len = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
+    let word = rest[..len].to_ascii_uppercase();
+    let declares = word.starts_with("VAR") || word.starts_with("END_") || DECLARING.contains(&word.as_str());
+    !rest.is_empty() && !declares && !rest.starts_with(['(', ';', ':'])
+}
+
+/// What follows blanks, comments and pragmas.
+fn skip_trivia(mut rest: &str) -> &str {
+    loop {
+        rest = rest.trim_start();
+        let close = [("(*", "*)"), ("/*", "*/"), ("//", "\n"), ("{", "}")];
+        let Some((open, close)) = close.into_iter().find(|(open, _)| rest.starts_with(open)) else { return rest };
+        let body = &rest[open.len()..];
+        rest = body.find(close).map_or("", |end| &body[end + close.len()..]);
+    }
+}
+
 /// The spans of the lines in `span`, without line breaks.
 fn lines(text: &str, span: Span) -> Vec<Range<usize>> {
     let mut out = Vec::new();
     let base = span.start as usize;
     let part = span.of(text);
     let mut start = 0;
-    let bytes = part.as_bytes();
     let mut i = 0;
-    while i < bytes.len() {
-        let width = match bytes[i] {
-            b'\r' if bytes.get(i + 1) == Some(&b'\n') => 2,
-            b'\r' | b'\n' => 1,
-            _ => 0,
-        };
+    while i < part.len() {
+        let width = line_break(part, i);
         if width > 0 {
             out.push(base + start..base + i);
             start = i + width;

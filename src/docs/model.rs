@@ -69,6 +69,8 @@ pub enum Verdict {
 pub enum Reason {
     /// It holds no word.
     Separator,
+    /// An instruction to a tool, such as `#CMD#`, `@OBJECTFLAGS := …` or `<Region>`.
+    Directive,
     /// A copyright notice or a licence.
     Licence,
     /// A header that speaks of its file and not of what it declares.
@@ -99,6 +101,7 @@ impl Reason {
     pub const fn text(self) -> &'static str {
         match self {
             Self::Separator => "a separator",
+            Self::Directive => "an instruction to a tool",
             Self::Licence => "a licence header",
             Self::FileHeader => "a header of the file, which says nothing of what is declared",
             Self::History => "a revision history",

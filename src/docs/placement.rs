@@ -43,9 +43,9 @@ impl Candidate {
 
 /// Leaves open what documents an item of `kind`, and says why the others do not.
 pub(super) fn choose_for_item(candidates: &mut [Candidate], kind: ItemKind, options: &Options) {
-    let by_body = matches!(kind, ItemKind::Action | ItemKind::Transition);
+    let by_body = is_by_body(kind);
     for candidate in candidates.iter_mut() {
-        if let Some(reason) = misplaced(candidate, by_body, options) {
+        if let Some(reason) = misplaced(candidate, kind, options) {
             candidate.reject(reason);
         }
     }
@@ -55,17 +55,25 @@ pub(super) fn choose_for_item(candidates: &mut [Candidate], kind: ItemKind, opti
     if candidates.iter().any(|candidate| candidate.is_open() && candidate.chunk.marker == Marker::Bang) {
         return;
     }
+    head_group(candidates);
     let rank = |placement: Placement| options.order.iter().position(|other| *other == placement);
     let best = candidates.iter().filter(|c| c.is_open()).filter_map(|c| rank(c.chunk.placement)).min();
     let Some(chosen) = best.map(|best| options.order[best]) else { return };
     for candidate in candidates.iter_mut().filter(|candidate| candidate.chunk.placement != chosen) {
         candidate.reject(Reason::OtherPlacement(chosen));
     }
-    cut_at_gap(candidates, chosen == Placement::Above);
+    cut_at_gap(candidates, chosen);
 }
 
-fn misplaced(candidate: &Candidate, by_body: bool, options: &Options) -> Option<Reason> {
+/// Whether items of `kind` have no declaration to put a comment at.
+const fn is_by_body(kind: ItemKind) -> bool {
+    matches!(kind, ItemKind::Action | ItemKind::Transition)
+}
+
+fn misplaced(candidate: &Candidate, kind: ItemKind, options: &Options) -> Option<Reason> {
     let chunk = &candidate.chunk;
+    let by_body = is_by_body(kind);
+    let is_code_block = !kind.is_type() || matches!(kind, ItemKind::FunctionBlock | ItemKind::Class);
     let asked = options.order.contains(&chunk.placement) && (!options.marked_only || chunk.marker.is_marked());
     if !asked {
         return Some(Reason::NotAsked);
@@ -73,16 +81,30 @@ fn misplaced(candidate: &Candidate, by_body: bool, options: &Options) -> Option<
     if chunk.marker.is_marked() {
         return None;
     }
+    if chunk.placement == Placement::Trailing {
+        return None;
+    }
     if is_heading(candidate.text()) || chunk.decorated && chunk.placement != Placement::Above {
         return Some(Reason::Heading);
     }
     let text = candidate.text();
     let told = text.contains('\n') || text.trim_end().ends_with('.');
+    let stated = chunk.placement == Placement::FirstInBody
+        || chunk.before_statement && matches!(chunk.placement, Placement::BelowHeader | Placement::AfterSections);
     match chunk.placement {
-        Placement::FirstInBody if !(by_body || chunk.set_apart && told) => Some(Reason::Statement),
+        _ if stated && is_code_block && !(by_body || chunk.set_apart && told) => Some(Reason::Statement),
         // One line right above a section speaks of the section.
         Placement::BetweenSections if !told || !(chunk.set_apart || text.contains('\n')) => Some(Reason::Heading),
         _ => None,
+    }
+}
+
+/// A line above a declaration that has a comment behind it heads the group that begins there.
+fn head_group(candidates: &mut [Candidate]) {
+    let behind = |c: &Candidate| c.is_open() && c.chunk.placement == Placement::Trailing;
+    if candidates.iter().any(behind) {
+        let above = candidates.iter_mut().filter(|c| c.chunk.placement == Placement::Above);
+        above.filter(|c| !c.text().contains('\n')).for_each(|c| c.reject(Reason::Heading));
     }
 }
 
@@ -100,18 +122,20 @@ fn prefer_marked(candidates: &mut [Candidate]) {
 }
 
 /// Of several chunks in one place keeps those next to the declaration: the last ones above it, the
-/// first ones elsewhere. Line comments of one kind belong together across an empty line.
-fn cut_at_gap(candidates: &mut [Candidate], from_end: bool) {
+/// first ones elsewhere. Line comments of one kind belong together across an empty line, but not in
+/// a body.
+fn cut_at_gap(candidates: &mut [Candidate], chosen: Placement) {
     let mut order: Vec<usize> = (0..candidates.len()).filter(|i| candidates[*i].is_open()).collect();
-    if from_end {
+    if chosen == Placement::Above {
         order.reverse();
     }
     let mut cut = false;
     for pair in 1..order.len() {
         let (near, far) = (order[pair - 1], order[pair]);
         let lower = &candidates[near.max(far)].chunk;
-        let lines = |i: usize| matches!(candidates[i].chunk.marker, Marker::Line | Marker::Slashes);
-        cut |= lower.gap_before && !(lines(near) && lines(far));
+        let line = |i: usize| matches!(candidates[i].chunk.marker, Marker::Line | Marker::Slashes);
+        let lines = line(near) && line(far) && chosen != Placement::FirstInBody;
+        cut |= lower.gap_before && !lines;
         if cut {
             candidates[far].reject(Reason::SetApart);
         }

@@ -45,21 +45,9 @@ const KEYS: [&str; 32] = [
     "zweck",
 ];
 
-/// What generated headers say of their file.
-const BOILERPLATE: [&str; 12] = [
-    "implementation of ",
-    "data types of ",
-    "global data types of ",
-    "local data types of ",
-    "functions and function blocks of ",
-    "local variables of ",
-    "global variables of ",
-    "variables of ",
-    "declaration of constants",
-    "constants of ",
-    "copyright",
-    "for test set ",
-];
+/// What generated headers say of their file: `Data types of library X`, `Implementation of program Y`.
+const BOILERPLATE: [&str; 6] =
+    [" of library ", "-library;", " of program ", " of package ", " of task ", "for test set "];
 
 /// Whether `text` opens with at least two such lines.
 pub(super) fn is_used(text: &str) -> bool {
@@ -80,7 +68,8 @@ pub(in crate::docs) fn is_bare(text: &str) -> bool {
 pub(in crate::docs) fn is_boilerplate(line: &str) -> bool {
     let folded = line.trim().to_lowercase();
     let keyed = key(line.trim()).is_some_and(|(key, _)| !is_description(key));
-    keyed || BOILERPLATE.iter().any(|opening| folded.starts_with(opening))
+    let short = folded.split(' ').count() <= 12;
+    keyed || short && (folded.starts_with("copyright") || BOILERPLATE.iter().any(|words| folded.contains(words)))
 }
 
 /// The description in a header that also holds a copyright notice.

@@ -12,13 +12,23 @@ use crate::docs::mapped::{Mapped, trim};
 
 /// Whether a line of `text` begins with a tag.
 pub(super) fn is_used(text: &str) -> bool {
-    text.lines().any(|line| tag(line).is_some() || line.trim_start().starts_with("@code"))
+    text.lines()
+        .map(str::trim_start)
+        .any(|line| todo(line).is_none() && tag(line).is_some() || line.starts_with("@code"))
 }
 
 /// Reads `text` into `draft`.
 pub(super) fn read(text: &Mapped, draft: &mut Draft) {
-    let text = inline(text);
-    let mut open = Open { slot: Slot::Body, text: Mapped::beside(&text), explicit: false };
+    read_lines(&inline(text), draft);
+}
+
+/// Reads `text`, in which no sign stands for a command; notes to oneself are still told from prose.
+pub(super) fn read_plain(text: &Mapped, draft: &mut Draft) {
+    read_lines(text, draft);
+}
+
+fn read_lines(text: &Mapped, draft: &mut Draft) {
+    let mut open = Open { slot: Slot::Body, text: Mapped::beside(text), explicit: false };
     let mut fence: Option<String> = None;
     for line in text.lines() {
         let part = &text.as_str()[line.clone()];
@@ -28,7 +38,7 @@ pub(super) fn read(text: &Mapped, draft: &mut Draft) {
             if closes && is_command(word, "endcode") {
                 open.line("```");
             } else {
-                open.append(&text, line);
+                open.append(text, line);
             }
             fence = (!closes).then(|| mark.clone());
             continue;
@@ -41,16 +51,16 @@ pub(super) fn read(text: &Mapped, draft: &mut Draft) {
             open.line("```st");
             continue;
         } else if let Some((found, rest)) = tag(part) {
-            let empty = Open { slot: found, text: Mapped::beside(&text), explicit: true };
+            let empty = Open { slot: found, text: Mapped::beside(text), explicit: true };
             std::mem::replace(&mut open, empty).close(draft);
-            open.append(&text, trim(text.as_str(), line.start + rest..line.end));
+            open.append(text, trim(text.as_str(), line.start + rest..line.end));
             continue;
         } else if word.is_empty() && open.explicit && open.slot.ends_with_paragraph() && !open.text.is_blank() {
-            let empty = Open { slot: Slot::Body, text: Mapped::beside(&text), explicit: false };
+            let empty = Open { slot: Slot::Body, text: Mapped::beside(text), explicit: false };
             std::mem::replace(&mut open, empty).close(draft);
             continue;
         }
-        open.append(&text, line);
+        open.append(text, line);
     }
     open.close(draft);
 }
@@ -112,15 +122,26 @@ fn param(text: &Mapped, note: &str, draft: &mut Draft) {
     draft.param(&names, &note, &text.slice(source.len() - after.len()..source.len()));
 }
 
-/// The tag that opens `line`, and the offset behind its name.
+/// The tag that opens `line`, and the offset behind its name; `TODO` and `FIXME` need no sign.
 fn tag(line: &str) -> Option<(Slot, usize)> {
     let space = line.len() - line.trim_start().len();
+    if let Some(len) = todo(&line[space..]) {
+        return Some((Slot::Todo, space + len));
+    }
     let rest = line[space..].strip_prefix(['@', '\\'])?;
     let len = rest.find(|c: char| !(c.is_ascii_alphabetic() || c == '_')).unwrap_or(rest.len());
     let ends = rest[len..].chars().next().is_none_or(|c| c.is_whitespace() || matches!(c, ':' | '[' | '{' | '.'));
     let found = slot(&rest[..len]).filter(|_| ends)?;
     let colon = usize::from(rest[len..].starts_with(':'));
     Some((found, space + 1 + len + colon))
+}
+
+/// The length of the word that opens a note to oneself.
+fn todo(line: &str) -> Option<usize> {
+    let word = ["TODO", "ToDo", "Todo", "FIXME", "XXX"].into_iter().find(|word| line.starts_with(word))?;
+    let rest = &line[word.len()..];
+    let ends = rest.is_empty() || rest.starts_with([':', ' ', '\t', '-', '(']);
+    ends.then(|| word.len() + rest.len() - rest.trim_start_matches([':', ' ', '\t', '-']).len())
 }
 
 /// Whether `word` is the command `name`, possibly with arguments.

@@ -24,7 +24,7 @@ pub(super) use neuron::description;
 pub(super) fn read(text: &Mapped, marker: Marker, profile: Option<Convention>, draft: &mut Draft) -> Convention {
     let convention = profile.unwrap_or_else(|| detect(text, marker));
     match convention {
-        Convention::Markdown | Convention::Neuron => draft.body(text.clone()),
+        Convention::Markdown | Convention::Neuron => javadoc::read_plain(text, draft),
         Convention::Javadoc => javadoc::read(text, draft),
         Convention::Xml => read_xml(text, draft),
         Convention::Te1030 => read_xml(&xml::cross_references(text), draft),

@@ -40,13 +40,28 @@ pub(in crate::docs) fn is_code_line(line: &str) -> bool {
         return false;
     }
     let bare = line.trim_end_matches(';').trim();
-    if CLOSERS.contains(&bare) {
+    if CLOSERS.contains(&bare) || is_section(bare) || is_pragma(line) {
         return true;
     }
     match line.strip_suffix(';') {
         Some(head) => is_assignment(head) || is_call(head) || is_declaration(head),
         None => is_control(line) || is_element(line),
     }
+}
+
+/// `VAR_EXTERNAL CONSTANT`
+fn is_section(line: &str) -> bool {
+    let mut words = line.split_whitespace();
+    words
+        .next()
+        .is_some_and(|word| word.starts_with("VAR_") && word.chars().all(|c| c.is_ascii_uppercase() || c == '_'))
+        && words.all(|word| matches!(word, "CONSTANT" | "RETAIN" | "PERSISTENT" | "NON_RETAIN"))
+}
+
+/// `{attribute …}`, also behind the star by which some compilers are told to read it.
+fn is_pragma(line: &str) -> bool {
+    let line = line.trim_start_matches(['*', '~']).trim();
+    line.starts_with('{') && line.ends_with('}')
 }
 
 /// The line without the comment behind it.
@@ -142,6 +157,8 @@ mod tests {
             "IF bReady THEN",
             "END_IF",
             "Red := 1,",
+            "VAR_EXTERNAL CONSTANT",
+            "{attribute 'hide'}",
         ] {
             assert!(is_code_line(line), "{line}");
         }

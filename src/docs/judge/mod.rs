@@ -4,6 +4,7 @@
 //! comment whose rest is documentation; then only that part is set aside.
 
 mod code;
+mod directive;
 mod heading;
 mod history;
 mod licence;
@@ -16,6 +17,7 @@ use super::mapped::Mapped;
 use crate::library::Placement;
 
 pub(super) use code::is_code_line;
+pub(super) use directive::is_directive;
 pub(super) use heading::is_heading;
 pub(super) use placeholder::is_placeholder;
 
@@ -45,8 +47,11 @@ fn says_something(chunk: &Chunk, text: &str) -> bool {
 
 fn judge_prose(chunk: &Chunk, prose: Mapped, name: &str) -> Result<Mapped, Reason> {
     let text = prose.as_str();
-    if !says_something(chunk, text) || text.contains("@KEY@") {
+    if !says_something(chunk, text) {
         return Err(Reason::Separator);
+    }
+    if is_directive(text) {
+        return Err(Reason::Directive);
     }
     if chunk.code || !chunk.marker.is_marked() && code::is_code(text) {
         return Err(Reason::Code);

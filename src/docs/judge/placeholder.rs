@@ -48,18 +48,26 @@ const PLACEHOLDERS: [&str; 44] = [
     "write documentation here",
 ];
 
+/// Elements that templates leave empty.
+const EMPTY: [&str; 6] = ["summary", "docu", "description", "remarks", "param", "returns"];
+
 /// Whether `text` says nothing about what is called `name`.
 pub(in crate::docs) fn is_placeholder(text: &str, name: &str) -> bool {
-    let words = fold(&without_elements(text));
-    if words.is_empty() && (1..=2).contains(&text.trim().chars().count()) {
+    if (1..=2).contains(&text.trim().chars().count()) {
         // A sign is a sign, as in `CHAR_MUL := 42; // *`.
         return false;
+    }
+    let bare = without_elements(text);
+    let words = fold(&bare);
+    if words.is_empty() && text.contains('<') {
+        let inside = fold(text);
+        return PLACEHOLDERS.contains(&inside.as_str()) || EMPTY.iter().any(|name| inside.contains(name));
     }
     if words.split(' ').count() > 8 {
         return false;
     }
-    let bare = words.strip_prefix("todo ").or_else(|| words.strip_prefix("brief ")).unwrap_or(&words);
-    PLACEHOLDERS.contains(&bare) || !name.is_empty() && bare.replace(' ', "") == fold(name).replace(' ', "")
+    let words = words.strip_prefix("todo ").or_else(|| words.strip_prefix("brief ")).unwrap_or(&words);
+    PLACEHOLDERS.contains(&words) || !name.is_empty() && fold(&bare) == fold(name)
 }
 
 /// Lower case words with one space between.
@@ -98,6 +106,8 @@ mod tests {
         assert!(is_placeholder("FB_Pump", "FB_Pump"));
         assert!(is_placeholder("fb pump.", "FB_Pump"));
         assert!(!is_placeholder("A pump", "FB_Pump"));
+        // Words made of a name are at least words.
+        assert!(!is_placeholder("Position source", "PositionSource"));
     }
 
     #[test]

@@ -20,7 +20,7 @@ fn item(kind: ItemKind, comments: &[(Placement, &str)]) -> String {
     let mut all = Vec::new();
     for (placement, source) in comments {
         all.push(sample.comment(*placement, source));
-        sample.code("\nHEADER\n");
+        sample.code("\nVAR_INPUT\n");
     }
     sample.item(kind, "FB_Pump", None, all);
     show(&sample.read().items[0])
@@ -189,4 +189,47 @@ fn marked_only_asks_for_marks() {
     let entry = &read(&sample.catalogue(), &options).items[0];
     assert_eq!(entry.considered[0].verdict, Verdict::Rejected(Reason::NotAsked));
     assert_eq!(Convention::ALL.map(|c| Convention::from_key(c.key())), Convention::ALL.map(Some));
+}
+
+#[test]
+fn what_stands_above_a_statement_speaks_of_it() {
+    let mut sample = Sample::new();
+    let first = sample.comment(Placement::BelowHeader, "\n// call all actions\n");
+    sample.code("Run();\n");
+    sample.item(ItemKind::Program, "MAIN", None, vec![first]);
+    let second = sample.comment(Placement::AfterSections, "(* A pump.\n   It pumps. *)\n\n");
+    sample.code("Run();\n");
+    sample.item(ItemKind::Program, "MAIN", None, vec![second]);
+    let docs = sample.read();
+    insta::assert_snapshot!(show(&docs.items[0]), @r"
+    = BelowHeader Rejected(Statement)
+    ");
+    insta::assert_snapshot!(show(&docs.items[1]), @r"
+    brief: A pump.
+      p It pumps.
+    = AfterSections Taken(Markdown)
+    ");
+}
+
+#[test]
+fn a_line_above_a_declaration_with_its_own_comment_heads_a_group() {
+    let text = item(
+        ItemKind::Function,
+        &[(Placement::Above, "(*BOOL_TO_ functions*)"), (Placement::Trailing, "(*converts*)")],
+    );
+    insta::assert_snapshot!(text, @r"
+    brief: converts
+    = Above Rejected(Heading)
+    = Trailing Taken(Markdown)
+    ");
+}
+
+#[test]
+fn a_note_to_oneself_is_no_brief() {
+    insta::assert_snapshot!(item(ItemKind::Function, &[(Placement::Above, "// ToDo after the next release")]), @r"
+    brief: 
+    todo
+      p after the next release
+    = Above Taken(Markdown)
+    ");
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 use rungbook::docs::{Entry, Verdict};
 use rungbook::pipeline::Project;
 use rungbook::source::Disk;
-use rungbook::text::Span;
+use rungbook::text::{Place, Span};
 
 use crate::support::settings;
 
@@ -43,6 +43,12 @@ fn labels() -> Vec<Label> {
     LABELS.lines().filter(|row| !row.starts_with('#')).map(label).collect()
 }
 
+/// The line of `offset`, counted by line feeds as most editors do, also in files with `\r\r\n`.
+fn line(text: &str, offset: u32) -> u32 {
+    let before = text.get(..offset as usize).unwrap_or(text);
+    u32::try_from(before.matches('\n').count() + 1).unwrap_or(u32::MAX)
+}
+
 /// The lines of the comments that were taken.
 fn taken(project: &Project, entry: &Entry) -> Option<(u32, u32)> {
     let lines = entry.considered.iter().filter(|considered| matches!(considered.verdict, Verdict::Taken(_)));
@@ -52,29 +58,28 @@ fn taken(project: &Project, entry: &Entry) -> Option<(u32, u32)> {
         // A line comment may hold its line break.
         let text = considered.place.span.of(&file.text);
         let end = end.saturating_sub(u32::try_from(text.len() - text.trim_end().len()).unwrap_or(0));
-        (file.lines.line(start), file.lines.line(end.saturating_sub(1)))
+        (line(&file.text, start), line(&file.text, end.saturating_sub(1)))
     });
     lines.reduce(|all, next| (all.0.min(next.0), all.1.max(next.1)))
 }
 
-/// The entry of the declaration that a label means.
+/// The entry of the declaration that a label means: of this name, the nearest to its line.
 fn find<'p>(project: &'p Project, label: &Label) -> Option<&'p Entry> {
-    let at = |place: rungbook::text::Place| {
+    let distance = |place: Place| {
         let file = project.files.get(place.file);
-        file.path == label.path && file.lines.line(place.span.start) == label.line
+        (file.path == label.path).then(|| line(&file.text, place.span.start).abs_diff(label.line))
     };
-    let mut found = project.catalogue.iter().filter_map(|(id, item)| {
-        if label.is_item {
-            let fits = item.name == label.name && !item.kind.is_accessor();
-            let same_file = project.files.get(item.place.file).path == label.path;
-            // An action has no header; its place is that of its container.
-            let near = project.files.get(item.place.file).lines.line(item.place.span.start).abs_diff(label.line) <= 1;
-            return (fits && same_file && near).then(|| project.docs.item(id));
+    let mut found: Vec<(u32, &Entry)> = Vec::new();
+    for (id, item) in project.catalogue.iter().filter(|(_, item)| !item.kind.is_accessor()) {
+        if label.is_item && item.name == label.name {
+            found.extend(distance(item.place).map(|distance| (distance, project.docs.item(id))));
+        } else if !label.is_item {
+            let named =
+                item.variables.iter().enumerate().filter(|(_, v)| v.name == label.name && distance(v.place) == Some(0));
+            found.extend(named.filter_map(|(i, _)| project.docs.variable(id, i)).map(|entry| (0, entry)));
         }
-        let index = item.variables.iter().position(|v| v.name == label.name && at(v.place))?;
-        project.docs.variable(id, index)
-    });
-    found.next()
+    }
+    found.into_iter().min_by_key(|(distance, _)| *distance).map(|(_, entry)| entry)
 }
 
 #[test]
