@@ -36,7 +36,8 @@ fn check(context: &Context<'_>, out: &mut Vec<Finding>) {
             Language::Ecc => "an execution control chart",
             Language::Unknown => "a language that is not known",
         };
-        let message = format!("the body of `{}` is drawn in {language} and not shown", context.catalogue.qualified_name(id));
+        let message =
+            format!("the body of `{}` is drawn in {language} and not shown", context.catalogue.qualified_name(id));
         out.push(Finding::new(&CODE, item.place, message));
     }
 }

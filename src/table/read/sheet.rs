@@ -57,7 +57,7 @@ fn saturate(value: usize) -> u32 {
 pub fn csv(piece: &Piece<'_>, name: &str, options: &Options) -> Read {
     let grid = csv_grid(piece);
     let made = make(&grid, name);
-    let inner = piece.rewritten(&made.text, &made.runs);
+    let inner = piece.rewritten(&made.text, &made.runs).within(piece);
     let mut read = pipe::read(&inner, options);
     for (_, cell) in &made.cells {
         for note in &cell.notes {

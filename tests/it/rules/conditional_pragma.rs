@@ -7,9 +7,10 @@ const TEXT: &str = "// Moves.\nFUNCTION_BLOCK FB_Axis\nVAR_INPUT\n  {IF defined 
 
 #[test]
 fn each_if_is_found_once_and_both_branches_are_read() {
-    assert_eq!(in_text("conditional-pragma", TEXT), [
-        "a.st:4:3 a conditional pragma is stepped over; all its branches are read"
-    ]);
+    assert_eq!(
+        in_text("conditional-pragma", TEXT),
+        ["a.st:4:3 a conditional pragma is stepped over; all its branches are read"]
+    );
     let project = project(&[("a.st", TEXT)], "");
     assert_eq!(project.catalogue.items[0].variables.len(), 2);
 }
