@@ -11,7 +11,7 @@
 
 use std::collections::BTreeMap;
 
-use super::model::LinkTarget;
+use super::prose::LinkTarget;
 use crate::library::{Catalogue, Item, ItemId, ItemKind, Target};
 
 /// Units that stand in brackets behind a value; a short name is not taken for a link to a variable.
@@ -226,11 +226,13 @@ fn is_self(name: &str) -> bool {
     name.eq_ignore_ascii_case("this") || name.eq_ignore_ascii_case("super")
 }
 
-/// The identifiers of a path such as `THIS^.Extend()`; `None` if it is no path.
+/// The identifiers of a path such as `THIS^.Extend()`, `E_State#Idle` or `FB_Pump::Start`; `None` if it is no path.
 pub(super) fn segments(path: &str) -> Option<Vec<&str>> {
     let path = path.trim();
     let path = path.split_once('(').filter(|(_, rest)| rest.ends_with(')')).map_or(path, |(head, _)| head);
-    let names: Vec<&str> = path.split('.').map(|name| name.trim_end_matches('^')).collect();
+    let parts: Vec<&str> =
+        if path.contains("::") { path.split("::").collect() } else { path.split(['.', '#']).collect() };
+    let names: Vec<&str> = parts.into_iter().map(|name| name.trim_end_matches('^')).collect();
     let identifier = |name: &&str| {
         name.starts_with(|c: char| c.is_alphabetic() || c == '_')
             && name.chars().all(|c| c.is_alphanumeric() || c == '_')

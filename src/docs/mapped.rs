@@ -40,17 +40,20 @@ impl Mapped {
 
     /// Appends `text`, which stands at byte `at` of the file.
     pub(super) fn push(&mut self, text: &str, at: u32) {
-        if text.is_empty() {
-            return;
+        if !text.is_empty() {
+            self.low = self.low.min(at);
+            self.high = self.high.max(at + length(text));
+            self.push_run(text, at);
         }
+    }
+
+    fn push_run(&mut self, text: &str, at: u32) {
         let offset = self.len();
         let follows = self.runs.last().is_some_and(|(from, to)| to + (offset - from) == at);
         if !follows {
             self.runs.push((offset, at));
         }
         self.text.push_str(text);
-        self.low = self.low.min(at);
-        self.high = self.high.max(at + length(text));
     }
 
     /// Appends text of this program's own.
@@ -107,7 +110,7 @@ impl Mapped {
             }
             if begin < until {
                 let piece = &other.text[begin as usize..until as usize];
-                self.push(piece, to + (begin - from));
+                self.push_run(piece, to + (begin - from));
             }
         }
         (self.low, self.high) = bounds;
@@ -223,6 +226,14 @@ mod tests {
     fn text_of_our_own_stands_within_the_comment() {
         let place = sample().place(5..7);
         assert!(Span::new(10, 36).contains(place.span), "{place:?}");
+    }
+
+    #[test]
+    fn copies_of_text_of_our_own_stay_there_too() {
+        let mut text = sample();
+        text.add("[`long`]");
+        let copy = text.slice(8..text.as_str().len());
+        assert_eq!(copy.slice(0..copy.as_str().len()).whole().span.end, 36);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Markdown to blocks, with links resolved.
 //!
-//! `CommonMark` with tables, task lists, strikethrough and footnotes, read by pulldown-cmark. PLC
+//! `CommonMark` with tables, task lists, strikethrough, footnotes and alerts (`> [!NOTE]`), read by pulldown-cmark. PLC
 //! comments were not written for it, so the text is prepared first:
 //!
 //! * indentation means nothing outside lists and fences (comments are indented with tabs at will),
@@ -20,7 +20,7 @@ use pulldown_cmark::{BrokenLink, CowStr, Event, Options, Parser, Tag};
 
 use super::links::Index;
 use super::mapped::Mapped;
-use super::model::{Block, Inline, LinkTarget};
+use super::prose::{Block, Inline, LinkTarget};
 use crate::library::ItemId;
 use builder::Builder;
 
@@ -31,7 +31,7 @@ const SHORTCUT: &str = "rungbook-entity:";
 pub(super) struct Reader<'a> {
     /// The names of the tree.
     pub(super) index: &'a Index<'a>,
-    /// The documented item; none for a page that stands alone.
+    /// The documented item; `None` for a page, which was written as Markdown and is read as it stands.
     pub(super) scope: Option<ItemId>,
 }
 
@@ -41,7 +41,10 @@ impl Reader<'_> {
         if text.is_blank() {
             return Vec::new();
         }
-        self.parse(&prepare::prepare(text), true)
+        match self.scope {
+            Some(_) => self.parse(&prepare::prepare(text), true),
+            None => self.parse(text, true),
+        }
     }
 
     fn parse(&self, text: &Mapped, html: bool) -> Vec<Block> {
@@ -49,13 +52,14 @@ impl Reader<'_> {
         let options = Options::ENABLE_TABLES
             | Options::ENABLE_TASKLISTS
             | Options::ENABLE_STRIKETHROUGH
-            | Options::ENABLE_FOOTNOTES;
+            | Options::ENABLE_FOOTNOTES
+            | Options::ENABLE_GFM;
         let callback = |link: BrokenLink<'_>| {
             self.is_link(source, &link)
                 .then(|| (CowStr::from(format!("{SHORTCUT}{}", link.reference)), CowStr::from("")))
         };
         let parser = Parser::new_with_broken_link_callback(source, options, Some(callback)).into_offset_iter();
-        let mut builder = Builder::new(source);
+        let mut builder = Builder::new(source, self.scope.is_some());
         let mut raw: Option<Range<usize>> = None;
         for (event, range) in parser {
             match event {

@@ -26,15 +26,16 @@ pub mod model;
 mod narrative;
 pub mod options;
 mod placement;
+pub mod prose;
 mod read;
 mod tables;
 
 pub use model::{
-    Align, Block, Considered, Convention, Docs, Documentation, Entry, Fact, Inline, LinkTarget, ListItem, ParamTag,
-    Reason, TableText, Tag, Tags, Verdict,
+    Considered, Convention, Docs, Documentation, Entry, Fact, ParamTag, Reason, TableText, Tag, Tags, Verdict,
 };
 pub use narrative::Narrator;
 pub use options::Options;
+pub use prose::{Align, Block, Inline, LinkTarget, ListItem};
 pub use read::read;
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::links::Index;
 use super::mapped::Mapped;
 use super::markdown::Reader;
-use super::model::Block;
+use super::prose::Block;
 use crate::library::Catalogue;
 use crate::text::FileId;
 

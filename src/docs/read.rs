@@ -9,11 +9,10 @@ use super::judge;
 use super::links::Index;
 use super::mapped::Mapped;
 use super::markdown::Reader;
-use super::model::{
-    Block, Considered, Convention, Docs, Documentation, Entry, Inline, ParamTag, Reason, Tags, Verdict,
-};
+use super::model::{Considered, Convention, Docs, Documentation, Entry, ParamTag, Reason, Tags, Verdict};
 use super::options::Options;
 use super::placement::{Candidate, Habit, choose_for_item, choose_for_variable};
+use super::prose::{Block, Inline};
 use super::tables::{self, Tables};
 use crate::library::{Catalogue, Comment, Item, ItemId, Placement, Pragma, Variable};
 use crate::text::Place;

@@ -2,6 +2,7 @@
 
 mod conventions;
 mod links;
+mod pages;
 mod placement;
 mod properties;
 mod sample;

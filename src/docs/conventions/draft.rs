@@ -27,6 +27,7 @@ pub(in crate::docs) struct Draft {
     pub(in crate::docs) params: Vec<DraftParam>,
     pub(in crate::docs) returns: Option<Mapped>,
     pub(in crate::docs) see: Vec<Mapped>,
+    pub(in crate::docs) copies: Vec<Mapped>,
     pub(in crate::docs) since: Option<Mapped>,
     pub(in crate::docs) deprecated: Option<Mapped>,
     pub(in crate::docs) examples: Vec<Mapped>,
@@ -66,6 +67,7 @@ impl Draft {
             Slot::Param { .. } => {}
             Slot::Returns => append(&mut self.returns, text),
             Slot::See => push(&mut self.see, text),
+            Slot::Copy => push(&mut self.copies, text),
             Slot::Since => append(&mut self.since, text),
             Slot::Deprecated => append(&mut self.deprecated, text),
             Slot::Example => push(&mut self.examples, text),

@@ -128,6 +128,9 @@ fn tag(line: &str) -> Option<(Slot, usize)> {
     if let Some(len) = todo(&line[space..]) {
         return Some((Slot::Todo, space + len));
     }
+    if let Some(rest) = line[space..].strip_prefix("{@inheritDoc}") {
+        return Some((Slot::Copy, line.len() - rest.len()));
+    }
     let rest = line[space..].strip_prefix(['@', '\\'])?;
     let len = rest.find(|c: char| !(c.is_ascii_alphabetic() || c == '_')).unwrap_or(rest.len());
     let ends = rest[len..].chars().next().is_none_or(|c| c.is_whitespace() || matches!(c, ':' | '[' | '{' | '.'));

@@ -16,7 +16,7 @@ use crate::docs::mapped::{Mapped, trim};
 use lex::{Piece, pieces};
 
 /// Elements that say that the text is meant as XML.
-const TELLING: [&str; 12] = [
+const TELLING: [&str; 13] = [
     "<summary",
     "<docu>",
     "<description>",
@@ -29,6 +29,7 @@ const TELLING: [&str; 12] = [
     "<seealso",
     "<paramref",
     "<note ",
+    "<inheritdoc",
 ];
 
 /// Whether `text` is written in elements.
@@ -181,6 +182,13 @@ impl Writer<'_> {
                 let name = attributes.get(self.text, "name");
                 self.level().append_all(&name);
                 self.add("`");
+            }
+            "inheritdoc" => {
+                let target = attributes.target(self.text);
+                self.draft.put(&Slot::Copy, target);
+                if !empty {
+                    self.push(Slot::Body, attributes);
+                }
             }
             "seealso" if empty || attributes.has_target() => {
                 let target = attributes.target(self.text);

@@ -9,9 +9,11 @@ pub(in crate::docs) fn is_directive(text: &str) -> bool {
     text.starts_with("@KEY@") || is_flag(text) || is_command(text) || is_region(text)
 }
 
-/// `@NAME := …`
+/// `@NAME := …`, `$NAME=…`
 fn is_flag(text: &str) -> bool {
-    let name = text.strip_prefix('@').and_then(|rest| rest.split_once(":=")).map_or("", |(name, _)| name.trim());
+    let flag = text.strip_prefix('@').and_then(|rest| rest.split_once(":="));
+    let column = text.strip_prefix('$').and_then(|rest| rest.split_once('='));
+    let name = flag.or(column).map_or("", |(name, _)| name.trim());
     !name.is_empty() && name.chars().all(|c| c.is_ascii_uppercase() || c == '_')
 }
 
@@ -39,9 +41,15 @@ mod tests {
 
     #[test]
     fn data_of_tools_is_told_from_prose() {
-        for text in
-            ["@KEY@:DESCRIPTION", "@OBJECTFLAGS := '0, 8'", "#CMD#;", "#PAR#; #OMIT#;", "</DataRegion>", "<DataRegion>"]
-        {
+        for text in [
+            "@KEY@:DESCRIPTION",
+            "@OBJECTFLAGS := '0, 8'",
+            "#CMD#;",
+            "#PAR#; #OMIT#;",
+            "$GROUP=Pumps,$CAT=All",
+            "</DataRegion>",
+            "<DataRegion>",
+        ] {
             assert!(is_directive(text), "{text}");
         }
         for text in ["#1", "@param x", "<Description>", "<0.5 mm>", "C#", "# #"] {

@@ -10,9 +10,10 @@ use crate::docs::conventions::file_header;
 use crate::docs::mapped::Mapped;
 
 /// Wording of licences, in lower case. The GNU family, MIT, BSD, Apache, MPL, SPDX tags.
-const WORDING: [&str; 27] = [
+const WORDING: [&str; 28] = [
     "all rights reserved",
     "permission is hereby granted",
+    "permission to use, copy, modify",
     "permission notice shall be included",
     "free software",
     "gnu general public",

@@ -1,9 +1,9 @@
 //! From the events of pulldown-cmark to blocks, with a stack of its own: a comment may nest
 //! quotations deeper than a call stack reaches.
 
-use pulldown_cmark::{Alignment, CodeBlockKind, Event, Tag};
+use pulldown_cmark::{Alignment, BlockQuoteKind, CodeBlockKind, Event, Tag};
 
-use crate::docs::model::{Align, Block, Inline, LinkTarget, ListItem};
+use crate::docs::prose::{Align, Block, Inline, LinkTarget, ListItem};
 use crate::text::Place;
 
 /// Containers deeper than this are dissolved into the one around them.
@@ -15,6 +15,7 @@ enum Kind {
     Paragraph,
     Heading(u8),
     Quote,
+    Alert(&'static str, &'static str),
     List(Option<u64>),
     Item(Option<bool>),
     Code(String),
@@ -70,8 +71,10 @@ pub(super) struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    pub(super) fn new(source: &'a str) -> Self {
+    /// Builds from `source`; `wrapped` if its breaks may be meant.
+    pub(super) fn new(source: &'a str, wrapped: bool) -> Self {
         let width = source.lines().map(|line| line.trim().chars().count()).max().unwrap_or(0);
+        let width = if wrapped { width } else { 0 };
         Self { source, width, stack: vec![Frame::new(Kind::Root)], notes: Vec::new() }
     }
 
@@ -79,7 +82,8 @@ impl<'a> Builder<'a> {
         let kind = match tag {
             Tag::Paragraph => Kind::Paragraph,
             Tag::Heading { level, .. } => Kind::Heading(level as u8),
-            Tag::BlockQuote(_) => Kind::Quote,
+            Tag::BlockQuote(Some(kind)) => alert(kind),
+            Tag::BlockQuote(None) => Kind::Quote,
             Tag::CodeBlock(CodeBlockKind::Fenced(info)) => {
                 Kind::Code(info.split([' ', ',', '\t']).next().unwrap_or("").to_lowercase())
             }
@@ -161,6 +165,11 @@ impl<'a> Builder<'a> {
             Kind::Quote => {
                 frame.flush();
                 self.blocks(vec![Block::Quote(frame.blocks)]);
+            }
+            Kind::Alert(style, title) => {
+                frame.flush();
+                let (style, title) = (style.to_owned(), title.to_owned());
+                self.blocks(vec![Block::Note { style, title, content: frame.blocks }]);
             }
             Kind::List(start) => self.blocks(vec![Block::List { start, items: frame.items }]),
             Kind::Item(checked) => {
@@ -268,6 +277,15 @@ fn tidy(mut inlines: Vec<Inline>) -> Vec<Inline> {
             }
             _ => return inlines,
         }
+    }
+}
+
+const fn alert(kind: BlockQuoteKind) -> Kind {
+    match kind {
+        BlockQuoteKind::Note => Kind::Alert("note", "Note"),
+        BlockQuoteKind::Tip => Kind::Alert("note", "Hint"),
+        BlockQuoteKind::Important => Kind::Alert("warning", "Important"),
+        BlockQuoteKind::Warning | BlockQuoteKind::Caution => Kind::Alert("warning", "Warning"),
     }
 }
 

@@ -15,6 +15,8 @@ pub(super) fn prepare(text: &Mapped) -> Mapped {
     let mut out = Mapped::beside(text);
     let mut lists = Lists::default();
     let mut fence: Option<String> = None;
+    // Whether a line of text stands right above: then `>` is no quotation.
+    let mut open_text = false;
     for (i, line) in lines.into_iter().enumerate() {
         if i > 0 {
             out.add("\n");
@@ -34,7 +36,15 @@ pub(super) fn prepare(text: &Mapped) -> Mapped {
             fence = Some(mark.to_owned());
             out.append(text, line.start + cut..line.end);
         } else {
-            escape(&mut out, text, line.start + cut..line.end);
+            let quotes = part.trim_start().starts_with('>');
+            if quotes && open_text {
+                out.add("\\");
+                out.append(text, line.start + cut..line.start + cut + 1);
+                escape(&mut out, text, line.start + cut + 1..line.end);
+            } else {
+                escape(&mut out, text, line.start + cut..line.end);
+            }
+            open_text = !part.trim().is_empty() && (!quotes || open_text);
         }
     }
     out
@@ -243,6 +253,12 @@ mod tests {
     #[test]
     fn a_fence_keeps_its_indentation() {
         assert_eq!(prepared("```\n    x := 1;\n```\n    y"), "```\n    x := 1;\n```\ny");
+    }
+
+    #[test]
+    fn a_quotation_stands_apart() {
+        assert_eq!(prepared("> quoted\n> too"), "> quoted\n> too");
+        assert_eq!(prepared("  < becomes a\n  > becomes b"), "< becomes a\n\\> becomes b");
     }
 
     #[test]

@@ -6,7 +6,7 @@
 //! opens a comment is its brief, unless it only repeats the name.
 
 use super::super::mapped::Mapped;
-use super::super::model::{Block, Inline};
+use super::super::prose::{Block, Inline};
 
 /// Words before a full stop that ends no sentence.
 const ABBREVIATIONS: [&str; 22] = [

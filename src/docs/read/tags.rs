@@ -6,7 +6,8 @@ use super::super::conventions::Draft;
 use super::super::links::segments;
 use super::super::mapped::{Mapped, trim};
 use super::super::markdown::{Reader, flatten, is_external};
-use super::super::model::{Block, Inline, LinkTarget, ParamTag, Tag, Tags};
+use super::super::model::{ParamTag, Tag, Tags};
+use super::super::prose::{Block, Inline, LinkTarget};
 use crate::text::Place;
 
 /// The tags of `draft`.
@@ -29,7 +30,11 @@ pub(super) fn read(reader: &Reader<'_>, draft: Draft) -> Tags {
             })
             .collect(),
         returns: draft.returns.as_ref().map(tag),
-        see: draft.see.iter().flat_map(|text| see(reader, text)).collect(),
+        copy_of: draft.copies.iter().find_map(|text| match reader.index.resolve(reader.scope, text.as_str())? {
+            LinkTarget::Item(id) => Some(id),
+            _ => None,
+        }),
+        see: draft.see.iter().chain(&draft.copies).flat_map(|text| see(reader, text)).collect(),
         since: draft.since.as_ref().map(tag),
         deprecated: draft.deprecated.as_ref().map(tag),
         examples: draft.examples.iter().map(|text| example(reader, text)).collect(),

@@ -331,3 +331,13 @@ fn line_breaks_that_wrapping_does_not_explain_stay() {
     = Above Taken(Markdown)
     ");
 }
+
+#[test]
+fn alerts_are_notes() {
+    insta::assert_snapshot!(shown("/// A pump.\n///\n/// > [!IMPORTANT]\n/// > It is slow."), @r"
+    brief: A pump.
+      note warning Important
+        p It is slow.
+    = Above Taken(Markdown)
+    ");
+}

@@ -170,6 +170,29 @@ fn documentation_is_inherited() {
 }
 
 #[test]
+fn a_copy_takes_the_prose_and_keeps_its_tags() {
+    let mut sample = Sample::new();
+    let comments = vec![sample.comment(Placement::Above, "/// Starts it.\n/// @return TRUE")];
+    let block = sample.item(ItemKind::FunctionBlock, "FB_Pump", None, Vec::new());
+    let start = sample.item(ItemKind::Method, "Start", Some(block), comments);
+    let other = sample.item(ItemKind::FunctionBlock, "FB_Other", None, Vec::new());
+    let copy = vec![sample.comment(Placement::Above, "/// \\copydoc Basics.FB_Pump#Start\n/// @since 1.2")];
+    let go = sample.item(ItemKind::Method, "Go", Some(other), copy);
+    let docs = sample.read();
+    assert_eq!(docs.item(go).inherited_from, Some(start));
+    insta::assert_snapshot!(show(docs.item(go)), @r"
+    brief: Starts it.
+    returns
+      p TRUE
+    since
+      p 1.2
+    see
+      p [Basics.FB_Pump#Start](item 1)
+    = Above Taken(Javadoc)
+    ");
+}
+
+#[test]
 fn lines_below_go_on_with_the_comment_behind() {
     let mut sample = Sample::new();
     let block = sample.item(ItemKind::Struct, "ST_Pump", None, Vec::new());

@@ -55,6 +55,11 @@ fn text() -> impl Strategy<Value = String> {
             "<ul>",
             "<li>",
             "&lt;",
+            "<inheritdoc/>",
+            "{@inheritDoc}",
+            "@copydoc ",
+            "> [!NOTE]\n",
+            "TODO: ",
             "[^1]",
             "\u{feff}",
         ])

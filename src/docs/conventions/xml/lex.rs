@@ -6,7 +6,7 @@ use crate::docs::conventions::tag_names::slot;
 use crate::docs::mapped::Mapped;
 
 /// Elements that only shape text, and those of lists, tables and links.
-const SHAPES: [&str; 42] = [
+const SHAPES: [&str; 43] = [
     "docu",
     "doc",
     "member",
@@ -49,6 +49,7 @@ const SHAPES: [&str; 42] = [
     "typeparam",
     "note",
     "value",
+    "inheritdoc",
 ];
 
 /// A run of text or an element's tag.
