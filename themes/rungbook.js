@@ -104,7 +104,7 @@
   function link(name, url, short) {
     var a = element("a", { href: root + url });
     if (short) a.appendChild(element("span", { class: "chip chip-" + short.toLowerCase() }, short));
-    a.appendChild(document.createTextNode(name));
+    a.appendChild(element("span", {}, name));
     if (url === path) a.setAttribute("aria-current", "page");
     return a;
   }
@@ -210,6 +210,16 @@
     if (folded) target.scrollIntoView();
   }
 
+  // --- A click on the number of a line makes it the address ------------------------------------------------------
+
+  function setUpLines() {
+    document.addEventListener("click", function (event) {
+      var line = event.target.closest("pre.listing a[id]");
+      if (line) location.hash = line.id;
+    });
+  }
+
+  setUpLines();
   setUpTheme();
   setUpMenu();
   setUpTree();

@@ -122,6 +122,14 @@ await check("a link to a line unfolds its listing", async () => {
   await page.waitForFunction(() => document.getElementById("s1-L62").closest("details").open);
 });
 
+await check("lines are numbered as in the file, and a click makes one the address", async () => {
+  await page.goto(url(ENTITY + "#s1-L62"));
+  const reset = await page.evaluate(() => document.getElementById("s1-L62").parentElement.style.counterReset);
+  equal(reset, "line 59", "the count begins before the first line");
+  await page.click("#s1-L64");
+  equal(here(), ENTITY + "#s1-L64", "address");
+});
+
 await check("findings are filtered", async () => {
   await page.goto(url("findings.html"));
   await page.fill(".filter input", "bError");
