@@ -97,8 +97,8 @@ impl Mapped {
         if part.is_empty() {
             return;
         }
-        // Text of this program's own goes through `push` here, and must not widen the comment.
-        let bounds = (self.low.min(other.low), self.high.max(other.high));
+        self.low = self.low.min(other.low);
+        self.high = self.high.max(other.high);
         let (start, end) = (small(range.start), small(range.end));
         let first = other.runs.partition_point(|run| run.0 <= start).saturating_sub(1);
         for i in first..other.runs.len() {
@@ -113,7 +113,6 @@ impl Mapped {
                 self.push_run(piece, to + (begin - from));
             }
         }
-        (self.low, self.high) = bounds;
     }
 
     /// Appends all of `other`.

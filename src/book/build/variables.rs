@@ -69,24 +69,10 @@ fn view(context: &Context<'_>, id: ItemId, index: usize, variable: &Variable, in
     }
 }
 
-/// Its own comment, and what a parameter tag of its owner says.
+/// Its own comment, or what a parameter tag of its owner says: `docs/` has joined them.
 fn documentation(context: &Context<'_>, id: ItemId, index: usize) -> (Vec<Inline>, Vec<Block>) {
-    let docs = context.input.docs;
-    let own = docs.variable(id, index).and_then(|entry| entry.doc.as_ref());
-    let mut brief = own.map_or(Vec::new(), |doc| prose::inlines(context, &doc.brief));
-    let mut detail = own.map_or(Vec::new(), |doc| prose::blocks(context, &doc.detail));
-    let owner = docs.item(id).doc.as_ref();
-    let params = owner.into_iter().flat_map(|doc| &doc.tags.params);
-    for param in params.filter(|param| param.target == Some((id, index))) {
-        let content = super::entity::flat(context, &param.content);
-        if Inline::plain(&content) == Inline::plain(&brief) {
-            continue;
-        }
-        if brief.is_empty() {
-            brief = content;
-        } else {
-            detail.push(Block::Paragraph { content });
-        }
-    }
-    (brief, detail)
+    let Some(doc) = context.input.docs.variable(id, index).and_then(|entry| entry.doc.as_ref()) else {
+        return (Vec::new(), Vec::new());
+    };
+    (prose::inlines(context, &doc.brief), prose::blocks(context, &doc.detail))
 }
