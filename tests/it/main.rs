@@ -1,4 +1,6 @@
 //! Integration tests, one module a room.
+#![allow(clippy::disallowed_methods, reason = "tests write and read files of their own")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "tests report what they measured or skipped")]
 
 mod cli;
 mod corpora;
