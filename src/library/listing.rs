@@ -166,7 +166,7 @@ impl<'a> Resolver<'a> {
         if let Some((Some(called), true)) = self.open.last()
             && is_parameter(token)
         {
-            return self.member(*called, name);
+            return self.parameter(*called, name);
         }
         if let Some(found) = self.own.get(&fold(name)) {
             return Some(*found);
@@ -177,6 +177,15 @@ impl<'a> Resolver<'a> {
         top.or_else(|| self.names.global(self.catalogue, name, scope))
     }
 
+    /// The formal parameter `name` of what is called: of a method or function itself, of the type of an instance.
+    fn parameter(&self, called: Found, name: &str) -> Option<Found> {
+        match called {
+            Found::Item(id) => self.names.member(self.catalogue, id, name),
+            Found::Variable(..) => self.member(called, name),
+        }
+    }
+
+    /// What `name` behind a dot means: a member of an item, or of the type of a variable, property or result.
     fn member(&self, of: Found, name: &str) -> Option<Found> {
         let owner = match of {
             Found::Item(id) => match self.catalogue.item(id).type_.as_ref() {

@@ -2,7 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Catalogue, Item, ItemId, Target, TypeUse};
+use rayon::prelude::*;
+
+use super::names::{Found, Names};
+use super::{Catalogue, Item, ItemBody, ItemId, Target, TypeUse, listing};
 
 /// The relations between items of a catalogue, both ways.
 #[derive(Clone, Debug, Default)]
@@ -20,9 +23,9 @@ pub struct Relations {
 }
 
 impl Relations {
-    /// Collects them.
+    /// Collects them: bases and types from declarations, other uses from bodies.
     #[must_use]
-    pub fn new(catalogue: &Catalogue) -> Self {
+    pub fn new(catalogue: &Catalogue, names: &Names) -> Self {
         let mut relations = Self::default();
         for (id, item) in catalogue.iter() {
             for base in targets(&item.extends) {
@@ -32,6 +35,15 @@ impl Relations {
                 relations.implemented_by.entry(base).or_default().push(id);
             }
             relations.add_uses(catalogue, id, item);
+        }
+        let bodies: Vec<(ItemId, BTreeSet<ItemId>)> = catalogue
+            .items
+            .par_iter()
+            .enumerate()
+            .filter_map(|(i, item)| named_in_body(catalogue, names, i, item))
+            .collect();
+        for (user, used) in bodies {
+            used.into_iter().for_each(|used| relations.add_use(user, used));
         }
         relations
     }
@@ -65,6 +77,22 @@ impl Relations {
             self.used_by.entry(used).or_default().insert(user);
         }
     }
+}
+
+/// The top-level items that the body of an item names, members counted for their owners.
+fn named_in_body(
+    catalogue: &Catalogue,
+    names: &Names,
+    index: usize,
+    item: &Item,
+) -> Option<(ItemId, BTreeSet<ItemId>)> {
+    let (ItemBody::St(excerpt) | ItemBody::Il(excerpt)) = item.body else { return None };
+    let id = ItemId(u32::try_from(index).unwrap_or(u32::MAX));
+    let targets = listing::tokens(catalogue, names, id, excerpt).into_iter().filter_map(|token| token.target);
+    let used = targets.map(|target| match target {
+        Found::Item(id) | Found::Variable(id, _) => catalogue.top(id),
+    });
+    Some((catalogue.top(id), used.collect()))
 }
 
 fn targets(uses: &[TypeUse]) -> impl Iterator<Item = ItemId> {

@@ -19,7 +19,7 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
     let lowered = lower::units(&units, libraries.list, &tree.files, &|n| events(Event::Advance(n)));
     let (mut catalogue, mut findings) = (lowered.catalogue, lowered.findings);
     let names = resolve::resolve(&mut catalogue);
-    let relations = Relations::new(&catalogue);
+    let relations = Relations::new(&catalogue, &names);
 
     events(Event::Stage { name: "comments", total: 0 });
     let docs = docs::read(&catalogue, &settings.docs);

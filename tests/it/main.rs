@@ -6,6 +6,7 @@ mod cli;
 mod corpora;
 mod docs;
 mod html;
+mod library;
 mod model;
 #[cfg(feature = "pdf")]
 mod pdf;
