@@ -1,4 +1,4 @@
-//! rungbook turns a PLC source tree (IEC 61131-3) into a reference manual that proves itself.
+//! rungbook turns a PLC source tree (IEC 61131-3) into a reference manual with its test tables: a site and a PDF.
 //!
 //! # The way of the data
 //!

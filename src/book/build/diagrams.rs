@@ -23,8 +23,7 @@ pub(crate) fn interface(context: &Context<'_>, id: ItemId) -> Option<Diagram> {
         && block.in_outs.is_empty()
         && block.returns.is_none()
         && block.compartments.iter().all(|compartment| compartment.entries.is_empty());
-    let member = item.parent.is_some();
-    (!(nothing && (member || item.kind == ItemKind::Interface))).then(|| diagram(&interface::draw(&block)))
+    (!nothing).then(|| diagram(&interface::draw(&block)))
 }
 
 fn diagram(drawing: &Drawing) -> Diagram {

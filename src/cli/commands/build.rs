@@ -34,6 +34,7 @@ pub(crate) fn run(args: &BuildArgs) -> Result<Exit, Failure> {
     let (project, settings) = tree::read(&args.tree, Some(&output), &progress)?;
     let outputs = Outputs::new(args, &settings);
     let stamp = stamp::stamp(&dir);
+    progress.event(pipeline::Event::Stage { name: "book", total: 0 });
     let book = pipeline::book(&project, &settings, &stamp);
     let written = write_all(&outputs, &output, &project, &book, &settings, &progress)?;
     progress.event(pipeline::Event::Done);
