@@ -172,6 +172,7 @@ impl<'o> Builder<'o> {
         let constants = self.constants();
         let cycle = self.table.options.cycle.map(|cycle| cycle.nanos);
         let mut body = std::mem::take(&mut self.table.body);
+        fill(&mut body, self.table.columns.len());
         self.count(&mut body, cycle, &constants);
         self.table.body = body;
         self.check_names();
@@ -313,5 +314,15 @@ pub(super) fn subject(exprs: Vec<Expr>) -> Subject {
     match exprs.as_slice() {
         [Expr { kind: ExprKind::Name(path), .. }] => Subject::Variable(path.clone()),
         _ => Subject::Projection(exprs),
+    }
+}
+
+/// Gives every row a cell for each of `columns` columns: a column may be declared behind the rows.
+fn fill(nodes: &mut [Node], columns: usize) {
+    for node in nodes {
+        match node {
+            Node::Row(row) => row.cells.resize_with(columns, || None),
+            Node::Block(block) => fill(&mut block.children, columns),
+        }
     }
 }

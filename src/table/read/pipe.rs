@@ -218,12 +218,13 @@ pub(in crate::table) enum Header {
 /// What the header cell `text` announces.
 pub(in crate::table) fn header_kind(text: &str) -> Header {
     let first = text.split_whitespace().next().unwrap_or("");
-    let rest = !text[first.len()..].trim().is_empty();
+    let end = text.len() - text.trim_start().len() + first.len();
+    let rest = !text[end..].trim().is_empty();
     match (first.to_ascii_lowercase().as_str(), rest) {
-        ("in" | "input", true) => Header::Bound(ColumnKind::Input, first.len()),
-        ("out" | "output", true) => Header::Bound(ColumnKind::Output, first.len()),
-        ("state", true) => Header::Bound(ColumnKind::StateAssumption, first.len()),
-        ("state!", true) => Header::Bound(ColumnKind::StateAssertion, first.len()),
+        ("in" | "input", true) => Header::Bound(ColumnKind::Input, end),
+        ("out" | "output", true) => Header::Bound(ColumnKind::Output, end),
+        ("state", true) => Header::Bound(ColumnKind::StateAssumption, end),
+        ("state!", true) => Header::Bound(ColumnKind::StateAssertion, end),
         ("#" | "row" | "no" | "no." | "seq" | "seq." | "id", false) => Header::Number,
         ("dur" | "duration", _) => Header::Duration,
         ("remark" | "remarks" | "comment", false) => Header::Remark,

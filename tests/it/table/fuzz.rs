@@ -185,3 +185,15 @@ fn no_text_is_a_crash() {
         panic!("{error}");
     }
 }
+
+#[test]
+fn what_was_found_stays_mended() {
+    // A header cell that begins with blanks, as a cell of comma-separated values may, before a sign of several bytes.
+    everything(" a);TRUE≠ out Y  OR\nA,B\n");
+    everything(" in X \\goto: \\pass(A, a);– (cycle 10msA\r\nA");
+    // Text that a reader of comma-separated values made is longer than the file.
+    everything("table T { var input x : INT group { row { \r\n in X |");
+    everything("x, in, X\n1,2,3\n,,\"in X\n");
+    // A column that is declared behind the rows.
+    everything("table T { var input x : INT group { row { x : 1 } } column output c as row }");
+}
