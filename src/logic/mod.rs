@@ -1,0 +1,6 @@
+//! Typed bit-vector terms, their evaluation and simplification; the transition system over them; and-inverter graphs,
+//! bit-blasting, and the SAT solvers behind one trait. It knows neither tables nor programs.
+
+pub mod aig;
+pub mod system;
+pub mod term;
