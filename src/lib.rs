@@ -28,6 +28,8 @@ pub mod library;
 pub mod logic;
 pub mod machine;
 pub mod pipeline;
+pub mod prove;
+pub mod recheck;
 pub mod render;
 pub mod semantics;
 pub mod source;

@@ -2,5 +2,6 @@
 //! bit-blasting, and the SAT solvers behind one trait. It knows neither tables nor programs.
 
 pub mod aig;
+pub mod certificate;
 pub mod system;
 pub mod term;

@@ -1,0 +1,3 @@
+//! Decides whether a block conforms to its table: obligations, engines, verdicts, certificates.
+
+pub mod verdict;

@@ -1,0 +1,181 @@
+//! Checks a [`Certificate`] against its [`System`] by propositional queries, each in a solver of its own.
+
+use super::cnf::{self, Words};
+use super::gates::{Gates, Word};
+use crate::logic::certificate::{Certificate, StateBit};
+use crate::logic::system::System;
+use batsat::Lit;
+
+/// Says when to give up.
+pub type Stop = std::sync::Arc<dyn Fn() -> bool + Send + Sync>;
+
+/// Why a certificate is not believed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rejection {
+    /// It names a state or a bit that the system does not have, or its bound is zero.
+    Malformed,
+    /// A first state does not satisfy the invariant.
+    NotInitial,
+    /// The invariant is not kept by a step: the index of the clause.
+    NotInductive(usize),
+    /// The invariant admits a state in which an obligation fails, or the induction's step does.
+    NotSafe,
+    /// An obligation fails in one of the first cycles.
+    Fails,
+    /// The time was over.
+    OutOfTime,
+}
+
+/// A system in clauses, cycle by cycle.
+struct Unrolled<'s> {
+    system: &'s System,
+    gates: Gates,
+    cycles: Vec<Words>,
+}
+
+impl<'s> Unrolled<'s> {
+    /// One cycle with free states.
+    fn new(system: &'s System, stop: &Stop) -> Self {
+        let stop = stop.clone();
+        let mut out = Self { system, gates: Gates::new(Box::new(move || stop())), cycles: vec![Words::new()] };
+        out.add_constraints(0);
+        out
+    }
+
+    fn word(&mut self, cycle: usize, term: crate::logic::term::Term) -> Word {
+        cnf::word(&mut self.gates, &self.system.pool, &mut self.cycles[cycle], term)
+    }
+
+    fn add_constraints(&mut self, cycle: usize) {
+        for constraint in &self.system.constraints {
+            let word = self.word(cycle, constraint.term);
+            self.gates.clause(&word);
+        }
+    }
+
+    fn start(&mut self) {
+        for state in &self.system.states {
+            if let Some(initial) = state.initial {
+                let (now, first) = (self.word(0, state.variable), self.word(0, initial));
+                let same = self.gates.equal(&now, &first);
+                self.gates.clause(&[same]);
+            }
+        }
+    }
+
+    fn step(&mut self) {
+        let last = self.cycles.len() - 1;
+        let next = self.system.states.iter().map(|state| (state.variable, self.word(last, state.next))).collect();
+        self.cycles.push(next);
+        self.add_constraints(last + 1);
+    }
+
+    /// The literal of each of a clause's state bits.
+    fn clause(&mut self, cycle: usize, clause: &[StateBit]) -> Vec<Lit> {
+        let lit = |this: &mut Self, literal: &StateBit| {
+            let word = this.word(cycle, this.system.states[literal.state as usize].variable);
+            let lit = word[literal.bit as usize];
+            if literal.value { lit } else { !lit }
+        };
+        clause.iter().map(|literal| lit(self, literal)).collect()
+    }
+
+    fn assume_invariant(&mut self, cycle: usize, certificate: &Certificate) {
+        for clause in &certificate.clauses {
+            let lits = self.clause(cycle, clause);
+            self.gates.clause(&lits);
+        }
+    }
+
+    /// Whether every obligation holds.
+    fn safe(&mut self, cycle: usize) -> Lit {
+        let words: Vec<Lit> =
+            self.system.obligations.iter().flat_map(|obligation| self.word(cycle, obligation.term)).collect();
+        self.gates.all(&words)
+    }
+
+    /// Whether no model has all of `lits`.
+    fn refute(&mut self, lits: &[Lit], otherwise: Rejection) -> Result<(), Rejection> {
+        match self.gates.satisfiable(lits) {
+            Some(false) => Ok(()),
+            Some(true) => Err(otherwise),
+            None => Err(Rejection::OutOfTime),
+        }
+    }
+
+    fn states_differ(&mut self, one: usize, other: usize) -> Lit {
+        let mut differences = Vec::new();
+        for state in &self.system.states {
+            let (a, b) = (self.word(one, state.variable), self.word(other, state.variable));
+            differences.push(!self.gates.equal(&a, &b));
+        }
+        self.gates.any(&differences)
+    }
+}
+
+/// Checks that `certificate` proves every obligation of `system`.
+///
+/// # Errors
+/// The first reason for which it does not.
+pub fn check(system: &System, certificate: &Certificate, stop: &Stop) -> Result<(), Rejection> {
+    let well_formed = |literal: &StateBit| {
+        let state = system.states.get(literal.state as usize);
+        state.is_some_and(|state| literal.bit < system.pool.width(state.variable))
+    };
+    if certificate.k == 0 || !certificate.clauses.iter().flatten().all(well_formed) {
+        return Err(Rejection::Malformed);
+    }
+    initial(system, certificate, stop)?;
+    inductive(system, certificate, stop)?;
+    safe(system, certificate, stop)
+}
+
+fn initial(system: &System, certificate: &Certificate, stop: &Stop) -> Result<(), Rejection> {
+    let mut first = Unrolled::new(system, stop);
+    first.start();
+    for clause in &certificate.clauses {
+        let violated: Vec<Lit> = first.clause(0, clause).into_iter().map(|lit| !lit).collect();
+        first.refute(&violated, Rejection::NotInitial)?;
+    }
+    Ok(())
+}
+
+fn inductive(system: &System, certificate: &Certificate, stop: &Stop) -> Result<(), Rejection> {
+    let mut pair = Unrolled::new(system, stop);
+    pair.assume_invariant(0, certificate);
+    pair.step();
+    for (index, clause) in certificate.clauses.iter().enumerate() {
+        let violated: Vec<Lit> = pair.clause(1, clause).into_iter().map(|lit| !lit).collect();
+        pair.refute(&violated, Rejection::NotInductive(index))?;
+    }
+    Ok(())
+}
+
+fn safe(system: &System, certificate: &Certificate, stop: &Stop) -> Result<(), Rejection> {
+    let k = certificate.k as usize;
+    let steps = if k == 1 { 0 } else { k };
+    let mut path = Unrolled::new(system, stop);
+    path.assume_invariant(0, certificate);
+    for step in 1..=steps {
+        let safe = path.safe(step - 1);
+        path.gates.clause(&[safe]);
+        path.step();
+        path.assume_invariant(step, certificate);
+        for earlier in (0..step).filter(|_| certificate.simple_path) {
+            let differ = path.states_differ(earlier, step);
+            path.gates.clause(&[differ]);
+        }
+    }
+    let good = path.safe(steps);
+    path.refute(&[!good], Rejection::NotSafe)?;
+    let mut base = Unrolled::new(system, stop);
+    base.start();
+    for cycle in 0..steps {
+        if cycle > 0 {
+            base.step();
+        }
+        let good = base.safe(cycle);
+        base.refute(&[!good], Rejection::Fails)?;
+    }
+    Ok(())
+}
