@@ -38,6 +38,7 @@ pub enum ExprKind<L> {
 }
 
 /// An operator. Unless it says otherwise, its operands and its result have the type of the expression, and it wraps around.
+/// A `REAL` result that is not a number has the bits `16#7FC0_0000` (`LREAL`: `16#7FF8_0000_0000_0000`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Op {
     /// Negation: two's complement, or of the sign of a `REAL`.
