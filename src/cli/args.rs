@@ -35,6 +35,8 @@ pub(crate) enum Command {
     Build(BuildArgs),
     /// Print what is undocumented, unverified or unreadable, and fail if it is bad enough
     Check(CheckArgs),
+    /// Read, convert and align test tables; make concrete ones from them
+    Table(super::commands::table::TableArgs),
     /// Explain a finding's code, or which comment documents an entity and why
     Explain(ExplainArgs),
     /// Write a commented rungbook.toml

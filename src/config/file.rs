@@ -27,6 +27,9 @@ pub struct ConfigFile {
     /// `[audit]`
     #[serde(default)]
     pub audit: AuditSection,
+    /// `[tables]`
+    #[serde(default)]
+    pub tables: TablesSection,
     /// `[html]`
     #[serde(default)]
     pub html: HtmlSection,
@@ -57,6 +60,29 @@ pub struct DocsSection {
     pub profile: Option<String>,
     /// The folder of the narrative pages, below the root.
     pub manual: Option<String>,
+}
+
+/// How test tables are read.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct TablesSection {
+    /// The length of a cycle (`10ms`), for tables that state none.
+    pub cycle: Option<String>,
+    /// `[[tables.sheet]]`
+    #[serde(default)]
+    pub sheet: Vec<SheetSection>,
+}
+
+/// What the columns of some spreadsheets are.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SheetSection {
+    /// Globs of the files.
+    pub files: Vec<String>,
+    /// The line of the header, from 1.
+    pub header: Option<usize>,
+    /// By letter or by name of a column, what it is, as in the header of a pipe table.
+    pub columns: BTreeMap<String, String>,
 }
 
 /// What is found fault with.

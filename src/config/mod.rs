@@ -7,6 +7,7 @@ pub mod file;
 #[cfg(feature = "pdf")]
 mod pdf;
 pub mod settings;
+pub mod tables;
 pub mod template;
 
 pub use file::ConfigFile;

@@ -26,6 +26,8 @@ pub struct Settings {
     pub docs: crate::docs::Options,
     /// The folder of the narrative pages, below the root.
     pub manual: String,
+    /// How test tables are read.
+    pub tables: super::tables::TableReading,
     /// Severity by code.
     pub levels: Levels,
     /// The severity from which on `check` fails.
@@ -78,6 +80,7 @@ impl Settings {
             source: source_options(file.source)?,
             docs: docs_options(file.docs.profile.as_deref())?,
             manual: file.docs.manual.unwrap_or_else(|| "manual".to_owned()),
+            tables: super::tables::TableReading::new(file.tables)?,
             levels: levels(file.audit.rules)?,
             deny,
             html: file.html.enabled.unwrap_or(true),

@@ -1,7 +1,7 @@
 //! The commented `rungbook.toml` that `rungbook init` writes.
 
 /// Every key, commented out, with its default.
-pub const TEMPLATE: &str = r#"# rungbook.toml: how the manual of this tree is made.
+pub const TEMPLATE: &str = r##"# rungbook.toml: how the manual of this tree is made.
 # Every key is optional; what is commented out shows the default.
 
 # title = "…"            # the project's title, or the folder's name
@@ -19,6 +19,14 @@ pub const TEMPLATE: &str = r#"# rungbook.toml: how the manual of this tree is ma
 # profile = "auto"       # the comment convention: auto, or one of those in the manual
 # manual = "manual"      # folder of narrative pages (*.md), below the root
 
+[tables]
+# cycle = "10ms"         # the length of a cycle, for test tables that state none
+
+# [[tables.sheet]]       # what the columns of a spreadsheet are, where its own header does not say so
+# files = ["tests/*.xlsx"]
+# header = 4             # the line of the header
+# columns = { A = "#", B = "in Start", "Motor on" = "out Motor", F = "dur ms", G = "remark" }
+
 [audit]
 # deny = "warning"       # `rungbook check` fails from this severity on: info, warning, error
 
@@ -35,4 +43,4 @@ pub const TEMPLATE: &str = r#"# rungbook.toml: how the manual of this tree is ma
 # standard = "pdf-1.7"   # pdf-1.7, pdf-a-2b, pdf-a-3b, pdf-a-3a, pdf-ua-1, pdf-a-3a-ua-1
 # tagged = false         # structure for screen readers; several times as large
 # source = false         # show the source in the PDF, too
-"#;
+"##;

@@ -23,7 +23,7 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
 
     events(Event::Stage { name: "comments", total: 0 });
     let docs = docs::read(&catalogue, &settings.docs);
-    let tables = tables::attach(&tree, &catalogue, &names, &docs);
+    let tables = tables::attach(&tree, &catalogue, &names, &docs, &settings.tables);
     findings.append(&mut tree.findings);
     findings.extend(tables.findings);
 

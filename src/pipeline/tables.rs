@@ -5,15 +5,16 @@
 
 use std::collections::BTreeMap;
 
+use crate::config::tables::TableReading;
 use crate::diagnostic::{Finding, Severity};
 use crate::docs::Docs;
 use crate::library::names::{Names, fold};
 use crate::library::{Catalogue, ItemId, ItemKind};
 use crate::source::{TableFile, Tree};
 use crate::table::codes::{MISSING_TABLE_FILE, UNATTACHED_TABLE};
-use crate::table::lint;
-use crate::table::read::{self, Options, Read};
+use crate::table::read::{self, Read};
 use crate::table::{AttachedTable, Piece, Table, TableError};
+use crate::table::{form, lint};
 use crate::text::FileId;
 
 /// The tables and what is wrong with them.
@@ -24,14 +25,14 @@ pub(super) struct Tables {
 }
 
 /// All tables of `tree`: those in comments in the order of the catalogue, then those in files.
-pub(super) fn attach(tree: &Tree, catalogue: &Catalogue, names: &Names, docs: &Docs) -> Tables {
+pub(super) fn attach(tree: &Tree, catalogue: &Catalogue, names: &Names, docs: &Docs, reading: &TableReading) -> Tables {
     let mut all = Tables::default();
     let mut named: BTreeMap<String, ItemId> = BTreeMap::new();
     for (id, item) in catalogue.iter() {
         let Some(doc) = docs.item(id).doc.as_ref().filter(|_| docs.item(id).inherited_from.is_none()) else { continue };
         for text in &doc.tables {
             let piece = Piece::new(text.place.file, &text.text, &text.map);
-            all.take(read::pipe::read(&piece, &Options::default()), |_| Some(id));
+            all.take(read::pipe::read(&piece, &reading.all), |_| Some(id));
         }
         for (path, place) in &doc.tags.gtt_paths {
             let wanted = beside(&tree.files.get(item.place.file).path, path);
@@ -46,7 +47,7 @@ pub(super) fn attach(tree: &Tree, catalogue: &Catalogue, names: &Names, docs: &D
     }
     let owners = Owners::new(tree, catalogue, names);
     for table in &tree.tables {
-        let read = file(tree, table);
+        let read = file(tree, table, reading);
         let by_path = named.get(&table.path).copied();
         all.take(read, |found| by_path.or_else(|| owners.of(table, found)));
     }
@@ -54,19 +55,12 @@ pub(super) fn attach(tree: &Tree, catalogue: &Catalogue, names: &Names, docs: &D
 }
 
 /// Reads a table file in the form that its name says.
-fn file(tree: &Tree, table: &TableFile) -> Read {
+fn file(tree: &Tree, table: &TableFile, reading: &TableReading) -> Read {
     let text = &tree.files.get(table.file).text;
-    let piece = Piece::verbatim(table.file, text, 0);
-    let name = fold(&table.path);
-    let title = name.rsplit('/').next().unwrap_or(&name);
-    let options = Options::default();
-    if name.ends_with(".csv") {
-        return read::sheet::csv(&piece, title, &options);
-    }
-    if [".xlsx", ".xls", ".ods"].iter().any(|extension| name.ends_with(extension)) {
-        return read::sheet::workbook(table.file, &table.bytes, &options);
-    }
-    read::text(&piece, &options)
+    form::read(
+        &form::File { id: table.file, path: &table.path, text, bytes: &table.bytes },
+        &reading.options(&table.path),
+    )
 }
 
 impl Tables {

@@ -11,6 +11,7 @@ pub mod codes;
 pub mod duration;
 pub mod eval;
 pub mod explain;
+pub mod form;
 pub mod layout;
 pub mod lint;
 pub mod model;

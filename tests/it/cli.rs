@@ -1,5 +1,7 @@
 //! The command line: exit codes, what goes to stdout and to stderr, what is written.
 
+mod table;
+
 use std::fs;
 use std::path::Path;
 

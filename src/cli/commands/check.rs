@@ -6,7 +6,7 @@ use crate::cli::args::{CheckArgs, Format, Level};
 use crate::cli::report::{json, progress::Progress, text::Reporter};
 use crate::cli::{Exit, Failure, print, say, tree};
 use crate::diagnostic::{Finding, Severity};
-use crate::pipeline::Project;
+use crate::text::Files;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let progress = Progress::new(args.tree.quiet);
@@ -15,7 +15,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let failed = project.findings.iter().any(|finding| finding.severity >= deny);
     match args.format {
         Format::Json => print(&format!("{}\n", json::render(&project.findings, &project.files, failed))),
-        Format::Text => print_text(&project),
+        Format::Text => print_text(&project.findings, &project.files),
     }
     if !args.tree.quiet {
         say(&totals(&project.findings));
@@ -23,7 +23,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     Ok(if failed { Exit::Findings } else { Exit::Ok })
 }
 
-const fn severity(level: Level) -> Severity {
+pub(crate) const fn severity(level: Level) -> Severity {
     match level {
         Level::Info => Severity::Info,
         Level::Warning => Severity::Warning,
@@ -31,12 +31,13 @@ const fn severity(level: Level) -> Severity {
     }
 }
 
-fn print_text(project: &Project) {
+/// Prints findings for people.
+pub(crate) fn print_text(findings: &[Finding], files: &Files) {
     let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
     let reporter = Reporter::new(colour);
     let mut out = String::new();
-    for finding in &project.findings {
-        out.push_str(&reporter.render(finding, &project.files));
+    for finding in findings {
+        out.push_str(&reporter.render(finding, files));
         out.push_str("\n\n");
         if out.len() > 1 << 16 {
             print(&out);
@@ -46,7 +47,7 @@ fn print_text(project: &Project) {
     print(&out);
 }
 
-fn totals(findings: &[Finding]) -> String {
+pub(crate) fn totals(findings: &[Finding]) -> String {
     let count = |severity| findings.iter().filter(|finding| finding.severity == severity).count();
     let [errors, warnings, infos] = [Severity::Error, Severity::Warning, Severity::Info].map(count);
     format!("{errors} errors, {warnings} warnings, {infos} infos; `rungbook explain CODE` tells what one means")

@@ -41,6 +41,18 @@ pub struct Options {
     pub constants: BTreeMap<String, Quantity>,
     /// Whether a pipe table without a `@gtt` line counts, as it does in a file that holds tables and nothing else.
     pub headless: bool,
+    /// What the columns of a spreadsheet are, where its own header does not say so.
+    pub mapping: Option<Mapping>,
+}
+
+/// What the columns of a spreadsheet are, said from outside.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Mapping {
+    /// The line of the header, from 1; without it, the first line that holds all names of `columns`.
+    pub header: Option<usize>,
+    /// For a column, by its letter (`B`) or by what its header says, the header cell that a pipe table would have (`in Start`,
+    /// `dur ms`). Columns that are not named are left out.
+    pub columns: Vec<(String, String)>,
 }
 
 /// What a reader found.
@@ -71,4 +83,19 @@ impl Read {
     fn sort(&mut self) {
         self.findings.sort_by_key(|finding| finding.place);
     }
+}
+
+/// A length of time in nanoseconds (`10ms`, `T#1s500ms`), above zero.
+#[must_use]
+pub fn time(text: &str) -> Option<i128> {
+    match heading::quantity(text) {
+        Some(Quantity::Nanos(nanos)) if nanos > 0 => Some(nanos),
+        _ => None,
+    }
+}
+
+/// The value of a time constant: a number of cycles or a length of time.
+#[must_use]
+pub fn quantity(text: &str) -> Option<Quantity> {
+    heading::quantity(text)
 }

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use calamine::{Data, Reader};
 
-use super::{Options, Read, pipe};
+use super::{Mapping, Options, Read, pipe};
 use crate::diagnostic::Finding;
 use crate::table::codes;
 use crate::table::piece::Piece;
@@ -56,7 +56,7 @@ fn saturate(value: usize) -> u32 {
 #[must_use]
 pub fn csv(piece: &Piece<'_>, name: &str, options: &Options) -> Read {
     let grid = csv_grid(piece);
-    let made = make(&grid, name);
+    let made = make(&grid, name, options.mapping.as_ref());
     let inner = piece.rewritten(&made.text, &made.runs).within(piece);
     let mut read = pipe::read(&inner, options);
     for (_, cell) in &made.cells {
@@ -111,7 +111,7 @@ fn nothing(place: Place, address: &str) -> Finding {
 
 /// The tables of one sheet: read once where findings can be traced to their cells, once without places.
 fn sheet_tables(file: FileId, sheet: &str, grid: &Grid, options: &Options, out: &mut Read) {
-    let made = make(grid, sheet);
+    let made = make(grid, sheet, options.mapping.as_ref());
     let mut traced = pipe::read(&Piece::verbatim(file, &made.text, 0), options);
     for finding in &mut traced.findings {
         let start = finding.place.span.start as usize;
@@ -299,7 +299,7 @@ struct Header {
     lines: usize,
 }
 
-fn make(grid: &Grid, name: &str) -> Made {
+fn make(grid: &Grid, name: &str, mapping: Option<&Mapping>) -> Made {
     let mut made = Made::default();
     let mut heading: Option<GridCell> = None;
     let mut at = 0;
@@ -309,7 +309,11 @@ fn make(grid: &Grid, name: &str) -> Made {
             at += 1;
             continue;
         }
-        let Some(header) = header(&grid[at..]) else {
+        let found = match mapping {
+            Some(mapping) => mapped(mapping, grid, at),
+            None => header(&grid[at..]),
+        };
+        let Some(header) = found else {
             at += 1;
             continue;
         };
@@ -319,6 +323,32 @@ fn make(grid: &Grid, name: &str) -> Made {
         at = made.table(grid, at, &header);
     }
     made
+}
+
+/// The header that a mapping says, if it is the line `at`.
+fn mapped(mapping: &Mapping, grid: &Grid, at: usize) -> Option<Header> {
+    let line = grid.get(at)?;
+    if mapping.header.is_some_and(|wanted| wanted != at + 1) {
+        return None;
+    }
+    let width = grid[at..].iter().map(Vec::len).max().unwrap_or(0);
+    let mut columns = vec![None; width];
+    for (key, title) in &mapping.columns {
+        let named = line.iter().position(|cell| cell.text.trim().eq_ignore_ascii_case(key.trim()));
+        let lettered = || column_number(key).filter(|_| mapping.header.is_some());
+        match named.or_else(lettered) {
+            Some(column) if column < width => columns[column] = Some(title.clone()),
+            _ if mapping.header.is_none() => return None,
+            _ => {}
+        }
+    }
+    columns.iter().any(Option::is_some).then_some(Header { columns, lines: 1 })
+}
+
+/// The number of the column that a sheet calls so: `A` is 0.
+fn column_number(letters: &str) -> Option<usize> {
+    let valid = (1..=3).contains(&letters.len()) && letters.bytes().all(|b| b.is_ascii_uppercase());
+    valid.then(|| letters.bytes().fold(0, |sum, b| sum * 26 + usize::from(b - b'A') + 1) - 1)
 }
 
 fn header(lines: &[Vec<GridCell>]) -> Option<Header> {

@@ -4,6 +4,7 @@
 mod gtt;
 pub mod pipe;
 mod sheet;
+mod test_manager;
 mod xml;
 
 use super::cell::print::{self, Style};
@@ -12,7 +13,8 @@ use super::model::{Block, Cell, Node, Quantity, Subject, Table};
 
 pub use gtt::gtt;
 pub use pipe::{format_in_place, pipe};
-pub use sheet::{csv, xlsx};
+pub use sheet::{csv, ods, xlsx};
+pub use test_manager::test_manager;
 pub use xml::{exteta, stvs};
 
 /// A table in some form, and what the form cannot hold.

@@ -3,7 +3,7 @@
 use super::{Written, cell_text, duration_text, lost_parts, options, quantity_text, subject_text};
 use crate::table::model::{Column, ColumnKind, Node, Row, Table};
 
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

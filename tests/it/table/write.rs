@@ -154,9 +154,12 @@ fn same(text: &str) -> Result<(), TestCaseError> {
     check("gtt", &written, &gtt(&written), &wanted)?;
     let written = write::csv(table).map_err(TestCaseError::fail)?.content;
     check("csv", &written, &csv(&written), &wanted)?;
-    let written = write::xlsx(table).map_err(TestCaseError::fail)?.content;
+    let written = write::xlsx(&[table]).map_err(TestCaseError::fail)?.content;
     let read = read::sheet::workbook(FileId(0), &written, &Options::default());
     check("xlsx", "", &read, &wanted)?;
+    let written = write::ods(&[table]).map_err(TestCaseError::fail)?.content;
+    let read = read::sheet::workbook(FileId(0), &written, &Options::default());
+    check("ods", "", &read, &wanted)?;
     // Where a column is bound to something else than its name, exteta loses it.
     let mut plain = table.clone();
     plain.columns.truncate(3);
