@@ -1,6 +1,7 @@
 //! Tests of `table`.
 
 mod automaton;
+mod automaton_terms;
 mod cells;
 mod corpora;
 mod fuzz;

@@ -75,6 +75,16 @@ pub enum Update {
     Next(usize),
 }
 
+impl Update {
+    /// The block whose count it sets.
+    #[must_use]
+    pub const fn block(self) -> usize {
+        match self {
+            Self::Begin(index) | Self::Next(index) => index,
+        }
+    }
+}
+
 /// A row that the word would be in had it left: while its input constraint holds, a progress flag forbids to go on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rival {

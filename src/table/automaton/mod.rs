@@ -13,7 +13,9 @@
 //! whose automaton guesses one word, which is not exact where rows overlap.
 
 mod edges;
+pub mod encode;
 pub mod game;
+mod meet;
 mod ranges;
 mod shape;
 

@@ -12,13 +12,13 @@ use rungbook::table::automaton::{Automaton, Site};
 
 /// How often something is repeated: at least, at most, or for ever.
 #[derive(Clone, Copy, Debug)]
-enum Tau {
+pub(super) enum Tau {
     Times(usize, Option<usize>),
     Omega,
 }
 
 #[derive(Clone, Debug)]
-enum Tree {
+pub(super) enum Tree {
     Row(Tau, bool),
     Block(Tau, bool, Vec<Tree>),
 }
@@ -170,7 +170,7 @@ impl Unroller {
 }
 
 /// What the inputs and outputs of a row admit: a set of letters, for its first cycle and for later ones.
-type Letters = [[u8; 2]; 2];
+pub(super) type Letters = [[u8; 2]; 2];
 
 struct Judged<'a> {
     constraints: &'a [Letters],
@@ -193,7 +193,7 @@ impl Judge for Judged<'_> {
 }
 
 #[derive(Debug, PartialEq, Eq)]
-enum Outcome {
+pub(super) enum Outcome {
     Open,
     Uncovered,
     Ended,
@@ -272,22 +272,22 @@ fn without_iterations(path: &[usize]) -> Vec<usize> {
     path.iter().step_by(2).copied().collect()
 }
 
-fn tau() -> impl Strategy<Value = Tau> {
+fn tau(longest: usize) -> impl Strategy<Value = Tau> {
     prop_oneof![
-        4 => (0_usize..3, 0_usize..3).prop_map(|(low, more)| Tau::Times(low, Some(low + more))),
-        2 => (0_usize..3).prop_map(|low| Tau::Times(low, None)),
+        4 => (0..longest, 0_usize..3).prop_map(|(low, more)| Tau::Times(low, Some(low + more))),
+        2 => (0..longest).prop_map(|low| Tau::Times(low, None)),
         1 => Just(Tau::Omega),
     ]
 }
 
-fn flagged_tau() -> impl Strategy<Value = (Tau, bool)> {
-    (tau(), any::<bool>()).prop_map(|(tau, flag)| (tau, flag && matches!(tau, Tau::Times(..))))
+fn flagged_tau(longest: usize) -> impl Strategy<Value = (Tau, bool)> {
+    (tau(longest), any::<bool>()).prop_map(|(tau, flag)| (tau, flag && matches!(tau, Tau::Times(..))))
 }
 
-fn trees() -> impl Strategy<Value = Vec<Tree>> {
-    let row = flagged_tau().prop_map(|(tau, flag)| Tree::Row(tau, flag)).boxed();
-    let tree = row.prop_recursive(2, 6, 3, |inner| {
-        (flagged_tau(), prop::collection::vec(inner, 1..4))
+fn trees(longest: usize) -> impl Strategy<Value = Vec<Tree>> {
+    let row = flagged_tau(longest).prop_map(|(tau, flag)| Tree::Row(tau, flag)).boxed();
+    let tree = row.prop_recursive(2, 6, 3, move |inner| {
+        (flagged_tau(longest), prop::collection::vec(inner, 1..4))
             .prop_map(|((tau, flag), children)| Tree::Block(tau, flag, children))
             .boxed()
     });
@@ -299,7 +299,7 @@ fn rows(trees: &[Tree]) -> usize {
 }
 
 /// The tree as a table in the language of geteta.
-fn source(trees: &[Tree]) -> String {
+pub(super) fn source(trees: &[Tree]) -> String {
     fn write(trees: &[Tree], out: &mut String) {
         for tree in trees {
             let (tau, flag) = match tree {
@@ -326,7 +326,7 @@ fn source(trees: &[Tree]) -> String {
     out + "} }"
 }
 
-fn played(automaton: &Automaton, constraints: &[Letters], run: &[(u8, u8)]) -> Vec<Outcome> {
+pub(super) fn played(automaton: &Automaton, constraints: &[Letters], run: &[(u8, u8)]) -> Vec<Outcome> {
     let mut game = Game::new(automaton);
     if *game.standing() == Standing::Ended {
         return vec![Outcome::Ended];
@@ -357,12 +357,13 @@ fn letters() -> impl Strategy<Value = Letters> {
 }
 
 /// A table, the constraints of its rows, and some runs.
-type Case = (Vec<Tree>, Vec<Letters>, Vec<Vec<(u8, u8)>>);
+pub(super) type Case = (Vec<Tree>, Vec<Letters>, Vec<Vec<(u8, u8)>>);
 
-fn case() -> impl Strategy<Value = Case> {
-    trees().prop_flat_map(|trees| {
+/// With runs of `length` cycles, and durations up to `longest` and a little more.
+pub(super) fn case(length: usize, longest: usize) -> impl Strategy<Value = Case> {
+    trees(longest).prop_flat_map(move |trees| {
         let count = rows(&trees);
-        let run = prop::collection::vec((0_u8..3, 0_u8..3), 5);
+        let run = prop::collection::vec((0_u8..3, 0_u8..3), length);
         (Just(trees), prop::collection::vec(letters(), count), prop::collection::vec(run, 4))
     })
 }
@@ -394,7 +395,7 @@ pub(super) fn cases() -> u32 {
 fn tokens_and_words_play_the_same_game() {
     let config = Config { cases: cases(), failure_persistence: None, max_shrink_iters: 500, ..Config::default() };
     let tried = std::cell::Cell::new(0_u32);
-    let result = TestRunner::new(config).run(&case(), |(trees, constraints, runs)| {
+    let result = TestRunner::new(config).run(&case(5, 3), |(trees, constraints, runs)| {
         tried.set(tried.get() + u32::from(agree(&trees, &constraints, &runs)?));
         Ok(())
     });
