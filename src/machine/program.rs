@@ -206,8 +206,9 @@ pub enum StatementKind {
         /// `ELSE`.
         otherwise: Vec<Statement>,
     },
-    /// `FOR`: `control := from`, then while it has not passed `to`: the body, `control := control + by`. `to` and `by` are
-    /// evaluated once; the comparison is made on numbers, so that it ends where the type does.
+    /// `FOR`: `control := from`, then while it has not passed `to`: the body, `control := control + by`. `from`, `to` and
+    /// `by` are evaluated once, before `control` is set; the comparison is made on numbers before they are cut to the width,
+    /// so that it ends where the type does.
     For {
         /// The control variable, an integer.
         control: Location,
@@ -265,7 +266,7 @@ pub struct Arm {
     pub body: Vec<Statement>,
 }
 
-/// A string in memory: `capacity + 1` slots.
+/// A string in memory: `capacity + 1` slots. Operations fill what is behind the closing zero with zeros.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Text {
     /// The first character.
