@@ -7,6 +7,7 @@ mod corpora;
 mod docs;
 mod html;
 mod library;
+mod logic;
 mod model;
 #[cfg(feature = "pdf")]
 mod pdf;

@@ -1,0 +1,3 @@
+//! The room of terms, graphs and solvers, seen from outside.
+
+mod system;
