@@ -30,6 +30,9 @@ pub struct ConfigFile {
     /// `[tables]`
     #[serde(default)]
     pub tables: TablesSection,
+    /// `[verify]`
+    #[serde(default)]
+    pub verify: super::verify::VerifySection,
     /// `[html]`
     #[serde(default)]
     pub html: HtmlSection,

@@ -9,6 +9,7 @@ mod pdf;
 pub mod settings;
 pub mod tables;
 pub mod template;
+pub mod verify;
 
 pub use file::ConfigFile;
 pub use settings::{Levels, Settings};

@@ -28,6 +28,8 @@ pub struct Settings {
     pub manual: String,
     /// How test tables are read.
     pub tables: super::tables::TableReading,
+    /// How tables are proven.
+    pub verify: super::verify::Verification,
     /// Severity by code.
     pub levels: Levels,
     /// The severity from which on `check` fails.
@@ -81,6 +83,7 @@ impl Settings {
             docs: docs_options(file.docs.profile.as_deref())?,
             manual: file.docs.manual.unwrap_or_else(|| "manual".to_owned()),
             tables: super::tables::TableReading::new(file.tables)?,
+            verify: super::verify::Verification::new(file.verify)?,
             levels: levels(file.audit.rules)?,
             deny,
             html: file.html.enabled.unwrap_or(true),

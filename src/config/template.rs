@@ -27,6 +27,14 @@ pub const TEMPLATE: &str = r##"# rungbook.toml: how the manual of this tree is m
 # header = 4             # the line of the header
 # columns = { A = "#", B = "in Start", "Motor on" = "out Motor", F = "dur ms", G = "remark" }
 
+[verify]
+# timeout = 60           # seconds for one table
+# memory = 4096          # MiB for one table
+# jobs = 0               # tables at a time; 0 is one for each core
+# strict = false         # strict conformance for every table
+# loop-limit = 1000      # how often a loop without constant bounds may be done
+# stubs = { "FB_Vendor" = "arbitrary", "FB_Other" = "stubs/FB_Other.st" }
+
 [audit]
 # deny = "warning"       # `rungbook check` fails from this severity on: info, warning, error
 

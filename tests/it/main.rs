@@ -11,6 +11,7 @@ mod logic;
 mod model;
 #[cfg(feature = "pdf")]
 mod pdf;
+mod recheck;
 mod rules;
 mod source;
 mod support;

@@ -39,3 +39,8 @@ pub(crate) fn findings(code: &str, files: &[(&str, &str)], config: &str) -> Vec<
 pub(crate) fn in_text(code: &str, text: &str) -> Vec<String> {
     findings(code, &[("a.st", text)], "")
 }
+
+/// How many cases a property test runs: 1,000, or what `RUNGBOOK_CASES` says (10,000 in CI).
+pub(crate) fn cases() -> u32 {
+    std::env::var("RUNGBOOK_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(1_000)
+}

@@ -1,0 +1,71 @@
+//! `[verify]`: how tables are proven.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use serde::Deserialize;
+
+use super::file::ConfigError;
+use crate::prove::options::Options;
+
+/// `[verify]` as typed.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct VerifySection {
+    /// Seconds for one table.
+    pub timeout: Option<u64>,
+    /// MiB for one table.
+    pub memory: Option<u64>,
+    /// How many tables at a time.
+    pub jobs: Option<usize>,
+    /// Strict conformance for every table.
+    pub strict: Option<bool>,
+    /// How often the body of a loop without constant bounds may be done.
+    pub loop_limit: Option<u64>,
+    /// What stands in for blocks that have no source: `arbitrary`, or a file of Structured Text below the root.
+    #[serde(default)]
+    pub stubs: BTreeMap<String, String>,
+}
+
+/// `[verify]` with its defaults.
+#[derive(Clone, Debug)]
+pub struct Verification {
+    /// The prover's own options.
+    pub options: Options,
+    /// How many tables at a time.
+    pub jobs: usize,
+    /// How often the body of a loop without constant bounds may be done.
+    pub loop_limit: u64,
+    /// What stands in for blocks that have no source.
+    pub stubs: BTreeMap<String, String>,
+}
+
+impl Default for Verification {
+    fn default() -> Self {
+        Self { options: Options::default(), jobs: 0, loop_limit: 1_000, stubs: BTreeMap::new() }
+    }
+}
+
+impl Verification {
+    /// What the section means.
+    ///
+    /// # Errors
+    /// If a number is zero.
+    pub fn new(section: VerifySection) -> Result<Self, ConfigError> {
+        let default = Self::default();
+        let positive = |key: &str, value: Option<u64>, default: u64| match value {
+            Some(0) => Err(ConfigError { message: format!("`verify.{key}` is 0; it takes 1 or more") }),
+            value => Ok(value.unwrap_or(default)),
+        };
+        Ok(Self {
+            options: Options {
+                timeout: Duration::from_secs(positive("timeout", section.timeout, default.options.timeout.as_secs())?),
+                memory: positive("memory", section.memory, default.options.memory)?,
+                strict: section.strict.unwrap_or(false),
+            },
+            jobs: section.jobs.unwrap_or(0),
+            loop_limit: positive("loop-limit", section.loop_limit, default.loop_limit)?,
+            stubs: section.stubs,
+        })
+    }
+}
