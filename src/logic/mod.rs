@@ -6,6 +6,7 @@ pub mod build;
 pub mod certificate;
 pub mod cone;
 pub mod eval;
+pub mod sat;
 pub mod simulate;
 pub mod system;
 pub mod term;
