@@ -2,6 +2,7 @@
 //! bit-blasting, and the SAT solvers behind one trait. It knows neither tables nor programs.
 
 pub mod aig;
+pub mod blast;
 pub mod build;
 pub mod certificate;
 pub mod cone;
