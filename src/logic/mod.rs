@@ -2,10 +2,12 @@
 //! bit-blasting, and the SAT solvers behind one trait. It knows neither tables nor programs.
 
 pub mod aig;
+pub mod blast;
 pub mod build;
 pub mod certificate;
 pub mod cone;
 pub mod eval;
+pub mod sat;
 pub mod simulate;
 pub mod system;
 pub mod term;

@@ -1,6 +1,10 @@
 //! And-inverter graphs with structural hashing, and transition systems over them: what engines work on.
 
+mod simulate;
+
 use std::collections::HashMap;
+
+pub use simulate::{BitSnapshot, Trace, word};
 
 /// An edge to a node, perhaps inverted: twice the node's number, plus one where it is inverted. As in AIGER.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
