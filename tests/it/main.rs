@@ -8,6 +8,7 @@ mod docs;
 mod html;
 mod library;
 mod logic;
+mod machine;
 mod model;
 #[cfg(feature = "pdf")]
 mod pdf;
