@@ -3,3 +3,4 @@
 
 pub mod interpret;
 pub mod program;
+pub mod translate;
