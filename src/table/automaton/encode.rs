@@ -113,9 +113,8 @@ struct Encoder<'a, 's> {
 /// Whether a condition of the automaton asks for a count of the block.
 fn loop_matters(automaton: &Automaton, index: usize) -> bool {
     let edges = automaton.edges.iter().flatten().chain(&automaton.entries);
-    let mut conditions = edges.flat_map(|edge| {
-        edge.conditions.iter().chain(edge.rivals.iter().flat_map(|rival| &rival.conditions))
-    });
+    let mut conditions =
+        edges.flat_map(|edge| edge.conditions.iter().chain(edge.rivals.iter().flat_map(|rival| &rival.conditions)));
     conditions.any(|condition| condition.counter == Counter::Loop(index))
 }
 
@@ -440,12 +439,7 @@ impl Encoder<'_, '_> {
         Count::Kept(self.pool.ite(guard, new, known), width)
     }
 
-    fn finish(
-        mut self,
-        start: Term,
-        arrivals: &[Vec<Arrival>],
-        survivors: Vec<(Term, Count, Vec<Count>)>,
-    ) -> Encoding {
+    fn finish(mut self, start: Term, arrivals: &[Vec<Arrival>], survivors: Vec<(Term, Count, Vec<Count>)>) -> Encoding {
         let tried = self.tried(arrivals);
         let covered = self.pool.any(tried.iter().map(|(_, term)| *term));
         let alive = self.pool.any(survivors.iter().map(|(any, ..)| *any));

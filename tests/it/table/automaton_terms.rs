@@ -62,11 +62,7 @@ fn system(automaton: &Automaton, constraints: &[Letters], precise: bool) -> (Sys
         pool,
         inputs: vec![input(letters[0], "in"), input(letters[1], "out")],
         states: encoding.states.clone(),
-        outputs: vec![
-            seen(encoding.covered, "covered"),
-            seen(encoding.lost, "lost"),
-            seen(encoding.ended, "ended"),
-        ],
+        outputs: vec![seen(encoding.covered, "covered"), seen(encoding.lost, "lost"), seen(encoding.ended, "ended")],
         ..System::default()
     };
     (system, encoding)
@@ -132,13 +128,17 @@ fn states(text: &str, precise: bool) -> usize {
 #[test]
 fn memory_grows_with_the_logarithm_of_durations_where_rows_exclude_each_other() {
     let table = |high: usize| {
-        format!("table T {{ var input x : INT var output y : INT group {{ row [1,{high}] {{}} row [5,{high}] {{}} row 3 {{}} }} }}")
+        format!(
+            "table T {{ var input x : INT var output y : INT group {{ row [1,{high}] {{}} row [5,{high}] {{}} row 3 {{}} }} }}"
+        )
     };
     let (small, large) = (states(&table(10), true), states(&table(10_000), true));
     assert!(large <= small + 2 * 10, "{small} bits for 10, {large} for 10,000");
     // An upper bound alone needs no more where they overlap.
     let open = |high: usize| {
-        format!("table T {{ var input x : INT var output y : INT group {{ row [1,{high}] {{}} row [0,{high}] {{}} row >= {high} {{}} }} }}")
+        format!(
+            "table T {{ var input x : INT var output y : INT group {{ row [1,{high}] {{}} row [0,{high}] {{}} row >= {high} {{}} }} }}"
+        )
     };
     let (small, large) = (states(&open(10), false), states(&open(10_000), false));
     assert!(large <= small + 3 * 10, "{small} bits for 10, {large} for 10,000");
