@@ -1,7 +1,7 @@
 //! The certificate of a safety property of a [`System`](super::system::System): data that a checker needs no engine to
 //! believe.
 //!
-//! It speaks of single bits of the system's state variables. Let `Inv` be the conjunction of its clauses. What a
+//! It speaks of single bits of the system's state variables, and of conjunctions of such that it defines as gates. Let `Inv` be the conjunction of its clauses. What a
 //! checker has to show, all of it by propositional queries over the constraints `C` of the system, its first
 //! states `I` and its transitions `T`:
 //!
@@ -11,7 +11,7 @@
 //!   different in their states where `simple_path` is set, are followed by one in which `P` holds (Sheeran, Singh and
 //!   Stålmarck, *Checking Safety Properties Using Induction and a SAT-Solver*, FMCAD 2000).
 
-/// A bit of a state variable with a value: a literal of a clause.
+/// A bit of a state variable with a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct StateBit {
     /// The index of the state variable in its system.
@@ -22,11 +22,22 @@ pub struct StateBit {
     pub value: bool,
 }
 
+/// A literal of a clause, or an operand of a gate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Fact {
+    /// A bit of a state variable has the value.
+    Bit(StateBit),
+    /// The gate of the certificate with this number has the value.
+    Gate(u32, bool),
+}
+
 /// A certificate.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Certificate {
+    /// Conjunctions that clauses may speak of; the operands of each are bits, or gates with smaller numbers.
+    pub gates: Vec<[Fact; 2]>,
     /// The invariant, in conjunctive form; each clause ascending, the clauses ascending.
-    pub clauses: Vec<Vec<StateBit>>,
+    pub clauses: Vec<Vec<Fact>>,
     /// 1 where the invariant alone is enough, else the bound of the induction.
     pub k: u32,
     /// Whether the steps of the induction are pairwise different states.

@@ -2,7 +2,7 @@
 
 use super::cnf::{self, Words};
 use super::gates::{Gates, Word};
-use crate::logic::certificate::{Certificate, StateBit};
+use crate::logic::certificate::{Certificate, Fact};
 use crate::logic::system::System;
 use batsat::Lit;
 
@@ -70,20 +70,33 @@ impl<'s> Unrolled<'s> {
         self.add_constraints(last + 1);
     }
 
-    /// The literal of each of a clause's state bits.
-    fn clause(&mut self, cycle: usize, clause: &[StateBit]) -> Vec<Lit> {
-        let lit = |this: &mut Self, literal: &StateBit| {
-            let word = this.word(cycle, this.system.states[literal.state as usize].variable);
-            let lit = word[literal.bit as usize];
-            if literal.value { lit } else { !lit }
+    fn fact(&mut self, cycle: usize, gates: &[Lit], fact: Fact) -> Lit {
+        let (lit, value) = match fact {
+            Fact::Bit(literal) => {
+                let word = self.word(cycle, self.system.states[literal.state as usize].variable);
+                (word[literal.bit as usize], literal.value)
+            }
+            Fact::Gate(gate, value) => (gates[gate as usize], value),
         };
-        clause.iter().map(|literal| lit(self, literal)).collect()
+        if value { lit } else { !lit }
+    }
+
+    /// The clauses of the invariant in a cycle.
+    fn invariant(&mut self, cycle: usize, certificate: &Certificate) -> Vec<Vec<Lit>> {
+        let mut gates = Vec::with_capacity(certificate.gates.len());
+        for [one, other] in &certificate.gates {
+            let (one, other) = (self.fact(cycle, &gates, *one), self.fact(cycle, &gates, *other));
+            gates.push(self.gates.and(one, other));
+        }
+        let clause = |this: &mut Self, clause: &[Fact]| {
+            clause.iter().map(|fact| this.fact(cycle, &gates, *fact)).collect::<Vec<Lit>>()
+        };
+        certificate.clauses.iter().map(|facts| clause(self, facts)).collect()
     }
 
     fn assume_invariant(&mut self, cycle: usize, certificate: &Certificate) {
-        for clause in &certificate.clauses {
-            let lits = self.clause(cycle, clause);
-            self.gates.clause(&lits);
+        for clause in self.invariant(cycle, certificate) {
+            self.gates.clause(&clause);
         }
     }
 
@@ -118,11 +131,7 @@ impl<'s> Unrolled<'s> {
 /// # Errors
 /// The first reason for which it does not.
 pub fn check(system: &System, certificate: &Certificate, stop: &Stop) -> Result<(), Rejection> {
-    let well_formed = |literal: &StateBit| {
-        let state = system.states.get(literal.state as usize);
-        state.is_some_and(|state| literal.bit < system.pool.width(state.variable))
-    };
-    if certificate.k == 0 || !certificate.clauses.iter().flatten().all(well_formed) {
+    if !well_formed(system, certificate) {
         return Err(Rejection::Malformed);
     }
     initial(system, certificate, stop)?;
@@ -130,11 +139,25 @@ pub fn check(system: &System, certificate: &Certificate, stop: &Stop) -> Result<
     safe(system, certificate, stop)
 }
 
+fn well_formed(system: &System, certificate: &Certificate) -> bool {
+    let fact = |fact: &Fact, gates: usize| match fact {
+        Fact::Bit(literal) => {
+            let state = system.states.get(literal.state as usize);
+            state.is_some_and(|state| literal.bit < system.pool.width(state.variable))
+        }
+        Fact::Gate(gate, _) => (*gate as usize) < gates,
+    };
+    let gates = certificate.gates.len();
+    certificate.k > 0
+        && certificate.gates.iter().enumerate().all(|(index, operands)| operands.iter().all(|f| fact(f, index)))
+        && certificate.clauses.iter().flatten().all(|f| fact(f, gates))
+}
+
 fn initial(system: &System, certificate: &Certificate, stop: &Stop) -> Result<(), Rejection> {
     let mut first = Unrolled::new(system, stop);
     first.start();
-    for clause in &certificate.clauses {
-        let violated: Vec<Lit> = first.clause(0, clause).into_iter().map(|lit| !lit).collect();
+    for clause in first.invariant(0, certificate) {
+        let violated: Vec<Lit> = clause.into_iter().map(|lit| !lit).collect();
         first.refute(&violated, Rejection::NotInitial)?;
     }
     Ok(())
@@ -144,8 +167,8 @@ fn inductive(system: &System, certificate: &Certificate, stop: &Stop) -> Result<
     let mut pair = Unrolled::new(system, stop);
     pair.assume_invariant(0, certificate);
     pair.step();
-    for (index, clause) in certificate.clauses.iter().enumerate() {
-        let violated: Vec<Lit> = pair.clause(1, clause).into_iter().map(|lit| !lit).collect();
+    for (index, clause) in pair.invariant(1, certificate).into_iter().enumerate() {
+        let violated: Vec<Lit> = clause.into_iter().map(|lit| !lit).collect();
         pair.refute(&violated, Rejection::NotInductive(index))?;
     }
     Ok(())

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
-use rungbook::logic::certificate::{Certificate, StateBit};
+use rungbook::logic::certificate::{Certificate, Fact, StateBit};
 use rungbook::logic::system::{Input, Labelled, State, System};
 use rungbook::logic::term::{Op, Pool, Term, mask};
 use rungbook::logic::value::operate;
@@ -42,7 +42,7 @@ fn claim(op: Op, widths: &[u32], values: &[u64], result: u64) -> System {
 }
 
 fn trivial() -> Certificate {
-    Certificate { clauses: Vec::new(), k: 1, simple_path: false }
+    Certificate { k: 1, ..Certificate::default() }
 }
 
 /// Operators with the widths of their operands.
@@ -207,24 +207,34 @@ fn counter() -> System {
     System { pool, states: vec![state], obligations: vec![labelled(good)], ..System::default() }
 }
 
-fn literal(bit: u32, value: bool) -> StateBit {
-    StateBit { state: 0, bit, value }
+fn literal(bit: u32, value: bool) -> Fact {
+    Fact::Bit(StateBit { state: 0, bit, value })
 }
 
 #[test]
 fn certificates_are_accepted_for_what_they_prove_and_nothing_else() {
     let system = counter();
-    let certificate = |clauses: Vec<Vec<StateBit>>, k| Certificate { clauses, k, simple_path: false };
+    let certificate = |clauses: Vec<Vec<Fact>>, k| Certificate { clauses, k, ..Certificate::default() };
     // Not 6 and not 7.
     let invariant = vec![vec![literal(1, false), literal(2, false)]];
     assert_eq!(check(&system, &certificate(invariant.clone(), 1), &patient()), Ok(()));
     assert_eq!(check(&system, &certificate(Vec::new(), 1), &patient()), Err(Rejection::NotSafe));
     assert_eq!(check(&system, &certificate(invariant, 0), &patient()), Err(Rejection::Malformed));
-    let wrong = |literals: Vec<StateBit>| check(&system, &certificate(vec![literals], 1), &patient());
+    let wrong = |literals: Vec<Fact>| check(&system, &certificate(vec![literals], 1), &patient());
     assert_eq!(wrong(vec![literal(0, true)]), Err(Rejection::NotInitial));
     assert_eq!(wrong(vec![literal(0, false)]), Err(Rejection::NotInductive(0)));
     assert_eq!(wrong(vec![literal(3, false)]), Err(Rejection::Malformed));
-    assert_eq!(wrong(vec![StateBit { state: 1, bit: 0, value: true }]), Err(Rejection::Malformed));
+    assert_eq!(wrong(vec![Fact::Bit(StateBit { state: 1, bit: 0, value: true })]), Err(Rejection::Malformed));
+    // The same by a gate: not (bit 1 and bit 2).
+    let gates = vec![[literal(1, true), literal(2, true)]];
+    let gated = |gate| Certificate {
+        gates: gates.clone(),
+        clauses: vec![vec![Fact::Gate(gate, false)]],
+        k: 1,
+        simple_path: false,
+    };
+    assert_eq!(check(&system, &gated(0), &patient()), Ok(()));
+    assert_eq!(check(&system, &gated(1), &patient()), Err(Rejection::Malformed));
     // 6 leads to 7 and nothing leads to 6: two steps of induction.
     assert_eq!(check(&system, &certificate(Vec::new(), 2), &patient()), Ok(()));
     let impatient: Stop = Arc::new(|| true);
