@@ -157,6 +157,7 @@ pub(super) fn program() -> Program {
         cycle_time: 10_000_000,
         assumptions: Vec::new(),
         cone: Vec::new(),
+        enumerations: std::collections::BTreeMap::new(),
         variables: Vec::new(),
     }
 }

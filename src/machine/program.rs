@@ -50,6 +50,8 @@ pub struct Program {
     pub assumptions: Vec<String>,
     /// Every item whose text the program is made from, ascending: what a verdict depends on.
     pub cone: Vec<ItemId>,
+    /// The values, as bits, of every enumeration that a variable of [`Program::variables`] has.
+    pub enumerations: std::collections::BTreeMap<ItemId, Vec<u64>>,
     /// The whole variables of the unit that tables may name, with their types, in the order of declaration.
     pub variables: Vec<NamedVariable>,
 }

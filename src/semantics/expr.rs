@@ -37,6 +37,26 @@ pub enum ExprKind<L> {
     If(Box<Expr<L>>, Box<Expr<L>>, Box<Expr<L>>),
 }
 
+impl<L> Expr<L> {
+    /// Calls `visit` with every leaf, from left to right.
+    pub fn leaves(&self, visit: &mut dyn FnMut(&L)) {
+        match &self.kind {
+            ExprKind::Const(_) => {}
+            ExprKind::Read(leaf) | ExprKind::Address(leaf) => visit(leaf),
+            ExprKind::Apply(_, operands) => operands.iter().for_each(|operand| operand.leaves(visit)),
+            ExprKind::AndThen(first, second) | ExprKind::OrElse(first, second) => {
+                first.leaves(visit);
+                second.leaves(visit);
+            }
+            ExprKind::If(condition, then, otherwise) => {
+                condition.leaves(visit);
+                then.leaves(visit);
+                otherwise.leaves(visit);
+            }
+        }
+    }
+}
+
 /// An operator. Unless it says otherwise, its operands and its result have the type of the expression, and it wraps around.
 /// A `REAL` result that is not a number has the bits `16#7FC0_0000` (`LREAL`: `16#7FF8_0000_0000_0000`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

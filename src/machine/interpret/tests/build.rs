@@ -34,6 +34,7 @@ pub(super) fn program(scalars: &[Scalar], cycle: Vec<Statement>) -> Program {
         cycle_time: 10_000_000,
         assumptions: Vec::new(),
         cone: Vec::new(),
+        enumerations: std::collections::BTreeMap::new(),
         variables: Vec::new(),
     }
 }
