@@ -29,20 +29,27 @@ pub struct Snapshot {
 }
 
 impl System {
-    /// Runs for as many cycles as `stimulus` has inputs. It does not stop where a constraint fails.
+    /// The run that `stimulus` says.
     #[must_use]
-    pub fn simulate(&self, stimulus: &Stimulus) -> Vec<Snapshot> {
+    pub fn run(&self, stimulus: &Stimulus) -> Vec<Snapshot> {
+        self.simulate(&stimulus.free, &stimulus.inputs)
+    }
+
+    /// Runs for as many cycles as there are inputs; `free` and `inputs` are as in [`Stimulus`]. It does not stop where a
+    /// constraint fails.
+    #[must_use]
+    pub fn simulate(&self, free: &[u64], inputs: &[Vec<u64>]) -> Vec<Snapshot> {
         let labelled = self.constraints.iter().chain(&self.obligations).chain(&self.outputs);
         let roots = labelled.map(|labelled| labelled.term).chain(self.states.iter().map(|state| state.next));
         let own = self.states.iter().map(|state| state.variable).chain(self.inputs.iter().map(|input| input.variable));
         let evaluator = Evaluator::new(&self.pool, roots.chain(own));
         let mut values = Values::default();
         let mut variables = vec![0; self.pool.variables()];
-        for (state, value) in self.states.iter().zip(self.first_values(&stimulus.free)) {
+        for (state, value) in self.states.iter().zip(self.first_values(free)) {
             self.set(&mut variables, state.variable, value);
         }
-        let mut run = Vec::with_capacity(stimulus.inputs.len());
-        for inputs in &stimulus.inputs {
+        let mut run = Vec::with_capacity(inputs.len());
+        for inputs in inputs {
             for (index, input) in self.inputs.iter().enumerate() {
                 self.set(&mut variables, input.variable, inputs.get(index).copied().unwrap_or_default());
             }

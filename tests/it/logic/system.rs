@@ -1,6 +1,5 @@
 //! Systems: runs on values, and what their cones keep.
 
-use rungbook::logic::simulate::Stimulus;
 use rungbook::logic::system::{Input, Labelled, State, System};
 use rungbook::logic::term::Term;
 
@@ -50,12 +49,11 @@ fn counters() -> System {
 #[test]
 fn a_run_follows_initial_and_next_values() {
     let system = counters();
-    let stimulus = Stimulus { free: vec![5], inputs: vec![vec![0, 0], vec![1, 1], vec![1, 0], vec![0, 0]] };
-    let run = system.simulate(&stimulus);
+    let run = system.simulate(&[5], &[vec![0, 0], vec![1, 1], vec![1, 0], vec![0, 0]]);
     assert_eq!(run.iter().map(|cycle| cycle.states[1]).collect::<Vec<_>>(), [4, 4, 5, 5]);
     assert_eq!(run.iter().map(|cycle| cycle.outputs[0]).collect::<Vec<_>>(), [5, 5, 6, 6]);
     assert!(run.iter().all(|cycle| cycle.obligations == [true, true] && cycle.constraints == [true]));
-    let empty = system.simulate(&Stimulus { free: vec![0], inputs: vec![vec![]] });
+    let empty = system.simulate(&[0], &[vec![]]);
     assert_eq!(empty[0].constraints, [false]);
     assert_eq!(empty[0].obligations, [false, true]);
 }
@@ -66,8 +64,8 @@ fn a_cone_keeps_what_matters_and_behaves_the_same() {
     let cone = system.cone(&[0]);
     assert_eq!((cone.states, cone.inputs), (vec![0, 1], vec![0]));
     assert_eq!(cone.system.outputs.iter().map(|output| output.name.as_str()).collect::<Vec<_>>(), ["more", "down"]);
-    let whole = system.simulate(&Stimulus { free: vec![7], inputs: vec![vec![1, 1]; 5] });
-    let part = cone.system.simulate(&Stimulus { free: vec![7], inputs: vec![vec![1]; 5] });
+    let whole = system.simulate(&[7], &vec![vec![1, 1]; 5]);
+    let part = cone.system.simulate(&[7], &vec![vec![1]; 5]);
     for (whole, part) in whole.iter().zip(&part) {
         assert_eq!(whole.states[..2], part.states[..]);
         assert_eq!(whole.obligations[..1], part.obligations[..]);
