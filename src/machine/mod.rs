@@ -4,4 +4,5 @@
 pub mod interpret;
 pub mod program;
 pub mod standard;
+pub mod trace;
 pub mod translate;

@@ -5,4 +5,5 @@ pub mod encode;
 pub mod eval;
 pub mod expr;
 pub mod scalar;
+pub mod show;
 pub mod typing;
