@@ -12,6 +12,9 @@ use crate::text::Place;
 /// Bits of a length.
 const LENGTH: u32 = 32;
 
+/// Bits of a character, whatever its string has.
+const CHARACTER: u32 = 16;
+
 /// Characters, as many as there may be; behind the end they are zero.
 type Characters = Vec<Term>;
 
@@ -36,8 +39,7 @@ impl<'p> Executor<'p> {
             }
             TextOperation::Assign(target, source) => (target, self.read_text(source, place)?),
             TextOperation::Literal(target, codes) => {
-                let width = 16;
-                (target, codes.iter().map(|code| self.pool.constant(width, u64::from(*code))).collect())
+                (target, codes.iter().map(|code| self.pool.constant(CHARACTER, u64::from(*code))).collect())
             }
             TextOperation::Concat(target, first, second) => {
                 let (first, second) = (self.read_text(first, place)?, self.read_text(second, place)?);
@@ -97,6 +99,7 @@ impl<'p> Executor<'p> {
         let mut characters = Vec::with_capacity(text.capacity as usize);
         for offset in 0..text.capacity {
             let character = self.load(&area, offset, scalar);
+            let character = self.resize(character, CHARACTER, false);
             let there = self.is_there(character);
             inside = self.and(inside, there);
             characters.push(self.or_zero(inside, character));
@@ -109,7 +112,7 @@ impl<'p> Executor<'p> {
 
     fn write_text(&mut self, text: &'p Text, characters: &[Term], place: Option<Place>) -> Result<(), Unsupported> {
         let area = self.resolve(&text.location, place)?;
-        let zero = self.pool.constant(16, 0);
+        let zero = self.pool.constant(CHARACTER, 0);
         for offset in 0..=text.capacity {
             let given = characters.get(offset as usize).filter(|_| offset < text.capacity);
             self.store(&area, offset, given.copied().unwrap_or(zero));
@@ -125,7 +128,7 @@ impl<'p> Executor<'p> {
     }
 
     fn or_zero(&mut self, condition: Term, character: Term) -> Term {
-        let zero = self.pool.constant(self.pool.width(character), 0);
+        let zero = self.pool.constant(CHARACTER, 0);
         self.pool.apply(Op::Ite, &[condition, character, zero])
     }
 
@@ -188,7 +191,7 @@ impl<'p> Executor<'p> {
             let moves = self.pool.apply(Op::Extract { high: bit, low: bit }, &[count]);
             text = (0..text.len())
                 .map(|index| {
-                    let zero = self.pool.constant(self.pool.width(text[index]), 0);
+                    let zero = self.pool.constant(CHARACTER, 0);
                     let from = text.get(index + (1 << bit)).copied().unwrap_or(zero);
                     self.pool.apply(Op::Ite, &[moves, from, text[index]])
                 })
@@ -201,8 +204,7 @@ impl<'p> Executor<'p> {
 
     /// The text with `count` zeros in front, `count` being at most `most`.
     fn indent(&mut self, text: &[Term], count: Term, most: usize) -> Characters {
-        let Some(first) = text.first().copied() else { return Vec::new() };
-        let zero = self.pool.constant(self.pool.width(first), 0);
+        let zero = self.pool.constant(CHARACTER, 0);
         let mut text = text.to_vec();
         text.resize(text.len() + most, zero);
         for bit in 0..self.bits_for(most) {
@@ -245,11 +247,7 @@ impl<'p> Executor<'p> {
         let mut joined = Vec::with_capacity(moved.len());
         for (index, character) in moved.into_iter().enumerate() {
             joined.push(match first.get(index) {
-                Some(own) => {
-                    let width = self.pool.width(*own).max(self.pool.width(character));
-                    let (own, character) = (self.resize(*own, width, false), self.resize(character, width, false));
-                    self.pool.apply(Op::Or, &[own, character])
-                }
+                Some(own) => self.pool.apply(Op::Or, &[*own, character]),
                 None => character,
             });
         }
@@ -302,27 +300,22 @@ impl<'p> Executor<'p> {
     fn choose_text(&mut self, condition: Term, yes: Characters, no: Characters) -> Characters {
         (0..yes.len().max(no.len()))
             .map(|index| match (yes.get(index), no.get(index)) {
-                (Some(a), Some(b)) => {
-                    let width = self.pool.width(*a).max(self.pool.width(*b));
-                    let (a, b) = (self.resize(*a, width, false), self.resize(*b, width, false));
-                    self.pool.apply(Op::Ite, &[condition, a, b])
-                }
+                (Some(a), Some(b)) => self.pool.apply(Op::Ite, &[condition, *a, *b]),
                 (Some(a), None) => self.or_zero(condition, *a),
                 (None, Some(b)) => {
                     let not = self.not(condition);
                     self.or_zero(not, *b)
                 }
-                (None, None) => self.pool.constant(8, 0),
+                (None, None) => self.pool.constant(CHARACTER, 0),
             })
             .collect()
     }
 
     fn compare(&mut self, order: TextOrder, left: Characters, right: Characters) -> Term {
         let mut result = self.pool.truth(order != TextOrder::Less);
-        let zero = self.pool.constant(16, 0);
+        let zero = self.pool.constant(CHARACTER, 0);
         for index in (0..left.len().max(right.len())).rev() {
             let (a, b) = (left.get(index).copied().unwrap_or(zero), right.get(index).copied().unwrap_or(zero));
-            let (a, b) = (self.resize(a, 16, false), self.resize(b, 16, false));
             let equal = self.pool.apply(Op::Eq, &[a, b]);
             result = match order {
                 TextOrder::Equal => self.and(equal, result),
@@ -346,10 +339,7 @@ impl<'p> Executor<'p> {
                 let wanted_there = self.is_there(*wanted);
                 let past = self.not(wanted_there);
                 let same = match text.get(start + index) {
-                    Some(character) => {
-                        let (a, b) = (self.resize(*character, 16, false), self.resize(*wanted, 16, false));
-                        self.pool.apply(Op::Eq, &[a, b])
-                    }
+                    Some(character) => self.pool.apply(Op::Eq, &[*character, *wanted]),
                     None => self.pool.truth(false),
                 };
                 let fits = self.or(past, same);
