@@ -19,3 +19,4 @@ mod support;
 mod syntax;
 mod table;
 mod tidy;
+mod translate;

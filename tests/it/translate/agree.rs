@@ -1,0 +1,134 @@
+//! The interpreter and the transition system, cycle by cycle, on every slot and every fault.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use proptest::prelude::*;
+use rungbook::logic::eval::{Evaluator, Values};
+use rungbook::logic::term::{Node, Term};
+use rungbook::machine::interpret::{Interpreter, Options as RunOptions};
+use rungbook::machine::program::{Program, Role, SlotId};
+use rungbook::machine::translate::{Options, Translated, translate};
+
+use super::choices::Choices;
+use super::programs::program;
+
+/// How many cases to run: `usual`, or what `RUNGBOOK_CASES` says (10,000 in CI).
+pub(super) fn cases(usual: u32) -> u32 {
+    std::env::var("RUNGBOOK_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(usual)
+}
+
+/// How often a loop may turn in the random programs.
+const LOOP_LIMIT: u64 = 6;
+const CYCLES: u32 = 20;
+
+/// The transition system as something that runs.
+pub(super) struct Run<'a> {
+    translated: &'a Translated,
+    evaluator: Evaluator,
+    values: Values,
+    variables: Vec<u64>,
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(translated: &'a Translated) -> Self {
+        let system = &translated.system;
+        let labelled = system.obligations.iter().chain(&system.constraints).map(|labelled| labelled.term);
+        let roots = labelled.chain(translated.end.iter().copied()).chain([translated.fault]);
+        let roots = roots.chain(system.states.iter().map(|state| state.next));
+        let evaluator = Evaluator::new(&system.pool, roots);
+        let variables = vec![0; system.pool.variables()];
+        let mut run = Self { translated, evaluator, values: Values::default(), variables };
+        for state in &system.states {
+            let initial = state.initial.and_then(|term| system.pool.value(term));
+            run.set(state.variable, initial.expect("states begin with constants"));
+        }
+        run
+    }
+
+    pub(super) fn set(&mut self, variable: Term, value: u64) {
+        if let Node::Var(var) = self.translated.system.pool.node(variable) {
+            self.variables[var.0 as usize] = value;
+        }
+    }
+
+    pub(super) fn cycle(&mut self) {
+        let system = &self.translated.system;
+        self.evaluator.run(&system.pool, |var| self.variables[var.0 as usize], &mut self.values);
+        let next: Vec<u64> = system.states.iter().map(|state| self.values.get(state.next)).collect();
+        for (state, value) in system.states.iter().zip(next) {
+            self.set(state.variable, value);
+        }
+    }
+
+    pub(super) fn get(&self, term: Term) -> u64 {
+        self.values.get(term)
+    }
+}
+
+/// Bits for an input, inside of its subrange.
+pub(super) fn input(choices: &mut Choices<'_>, program: &Program, slot: usize) -> u64 {
+    let slot = &program.slots[slot];
+    match slot.range {
+        Some((low, high)) => slot.scalar.bits(low + i128::from(choices.next()) % (high - low + 1)),
+        None => choices.bits(slot.scalar),
+    }
+}
+
+static CYCLES_DONE: AtomicU64 = AtomicU64::new(0);
+static FAULTS_SEEN: AtomicU64 = AtomicU64::new(0);
+
+fn compare(program: &Program, choices: &mut Choices<'_>) -> Result<(), TestCaseError> {
+    let options = Options { loop_limit: LOOP_LIMIT, ..Options::default() };
+    let translated = translate(program, &options).map_err(|error| TestCaseError::fail(format!("{error:?}")))?;
+    let mut run = Run::new(&translated);
+    let mut interpreter = Interpreter::with(program, &RunOptions { loop_limit: LOOP_LIMIT });
+    for cycle in 0..CYCLES {
+        for (at, variable) in translated.inputs.iter().enumerate() {
+            let is_input = matches!(program.slots[at].role, Role::Input | Role::Arbitrary);
+            if !is_input {
+                continue;
+            }
+            let value = input(choices, program, at);
+            interpreter.set(SlotId(at as u32), value);
+            if let Some(variable) = variable {
+                run.set(*variable, value);
+            }
+        }
+        run.cycle();
+        CYCLES_DONE.fetch_add(1, Ordering::Relaxed);
+        prop_assert!(translated.system.constraints.iter().all(|constraint| run.get(constraint.term) == 1));
+        let outcome = interpreter.cycle();
+        let harmed: Vec<_> = (0..translated.faults.len())
+            .filter(|index| run.get(translated.system.obligations[*index].term) == 0)
+            .map(|index| translated.faults[index])
+            .collect();
+        match outcome {
+            Err(at) => {
+                prop_assert_eq!(harmed, vec![(at.fault, at.place)], "cycle {} of {:#?}", cycle, program);
+                prop_assert_eq!(run.get(translated.fault), 1);
+                FAULTS_SEEN.fetch_add(1, Ordering::Relaxed);
+                return Ok(());
+            }
+            Ok(()) => {
+                prop_assert_eq!(harmed, vec![], "cycle {} of {:#?}", cycle, program);
+                prop_assert_eq!(run.get(translated.fault), 0);
+            }
+        }
+        for (at, term) in translated.end.iter().enumerate() {
+            let (expected, found) = (interpreter.memory()[at], run.get(*term));
+            prop_assert_eq!(found, expected, "slot {} in cycle {} of {:#?}", at, cycle, program);
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(300), max_shrink_iters: 20_000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn programs_mean_the_same_interpreted_and_translated(stream in prop::collection::vec(any::<u32>(), 0..4000)) {
+        let mut choices = Choices::new(&stream);
+        let program = program(&mut choices);
+        compare(&program, &mut choices)?;
+    }
+}
