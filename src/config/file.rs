@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use super::gate::{EvidenceSection, GateSection};
+
 /// The file.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -27,6 +29,12 @@ pub struct ConfigFile {
     /// `[audit]`
     #[serde(default)]
     pub audit: AuditSection,
+    /// `[gate]`
+    #[serde(default)]
+    pub gate: GateSection,
+    /// `[evidence]`
+    #[serde(default)]
+    pub evidence: EvidenceSection,
     /// `[html]`
     #[serde(default)]
     pub html: HtmlSection,

@@ -24,14 +24,17 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("machine", &["library", "syntax", "logic", "semantics"]),
     ("prove", &["machine", "table", "logic", "semantics"]),
     ("recheck", &["machine", "table", "logic", "semantics"]),
-    ("evidence", &["prove", "recheck", "machine", "table", "library", "semantics", "logic"]),
-    ("audit", &["library", "docs", "table", "source", "syntax"]),
+    ("evidence", &["table", "library", "syntax"]),
+    ("audit", &["library", "docs", "table", "source", "syntax", "evidence"]),
     ("figure", &["library", "table"]),
     ("book", &["library", "docs", "table", "audit", "figure"]),
     ("render", &["book", "figure"]),
-    ("config", &["source", "docs", "audit", "table", "render"]),
-    ("pipeline", &["source", "syntax", "library", "docs", "table", "audit", "figure", "book", "render", "config"]),
-    ("cli", &["pipeline", "config", "audit", "book", "render", "source", "table", "docs", "library"]),
+    ("config", &["source", "docs", "audit", "table", "evidence", "render"]),
+    (
+        "pipeline",
+        &["source", "syntax", "library", "docs", "table", "evidence", "audit", "figure", "book", "render", "config"],
+    ),
+    ("cli", &["pipeline", "config", "audit", "evidence", "book", "render", "source", "table", "docs", "library"]),
 ];
 
 fn rust_files(folder: &Path, out: &mut Vec<PathBuf>) {
