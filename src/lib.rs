@@ -23,6 +23,7 @@ pub mod cli;
 pub mod config;
 pub mod diagnostic;
 pub mod docs;
+pub mod evidence;
 pub mod figure;
 pub mod library;
 pub mod logic;

@@ -38,7 +38,8 @@ pub static RULES: &[Rule] = &[
 /// Every code of every room, by name.
 #[must_use]
 pub fn codes() -> Vec<&'static Code> {
-    let rooms = [crate::source::codes::ALL, crate::syntax::codes::ALL, crate::table::codes::ALL];
+    let rooms =
+        [crate::source::codes::ALL, crate::syntax::codes::ALL, crate::table::codes::ALL, crate::evidence::codes::ALL];
     let mut all: Vec<_> = RULES.iter().map(|rule| rule.code).chain(rooms.into_iter().flatten().copied()).collect();
     all.sort_by_key(|code| code.name);
     all

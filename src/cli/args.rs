@@ -7,8 +7,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 /// Exit codes, at the end of `--help`.
 const EXIT_CODES: &str = "\
 Exit codes:
-  0  done; for `check`: nothing at or above the denied severity
-  1  `check` found something at or above the denied severity
+  0  done; for `check`: nothing at or above the denied severity, and the gate is reached
+  1  `check` found something at or above the denied severity, or the gate is not reached
   2  unusable input, configuration or arguments
 
 Start with:
@@ -96,6 +96,21 @@ pub(crate) struct CheckArgs {
     /// How to print
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,
+    /// Write a report to a file besides, as in `--report sarif=out.sarif`; may be repeated
+    #[arg(long, value_name = "FORMAT=FILE", value_parser = report_file)]
+    pub(crate) report: Vec<(Format, PathBuf)>,
+    /// Allow the findings of this file [default: as configured]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) baseline: Option<PathBuf>,
+    /// Write the baseline: what is found now is allowed from now on
+    #[arg(long)]
+    pub(crate) write_baseline: bool,
+}
+
+/// `FORMAT=FILE`
+fn report_file(text: &str) -> Result<(Format, PathBuf), String> {
+    let (format, file) = text.split_once('=').ok_or("write FORMAT=FILE, as in `sarif=out.sarif`")?;
+    Ok((Format::from_str(format, true)?, PathBuf::from(file)))
 }
 
 /// `rungbook explain`.
@@ -127,6 +142,15 @@ pub(crate) enum Level {
     Error,
 }
 
+/// How the results of other commands are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Output {
+    /// For people
+    Text,
+    /// One JSON object
+    Json,
+}
+
 /// How findings are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
@@ -134,4 +158,18 @@ pub(crate) enum Format {
     Text,
     /// One JSON object
     Json,
+    /// SARIF 2.1.0
+    Sarif,
+    /// JUnit XML
+    Junit,
+    /// Annotations of GitHub's workflows
+    Github,
+    /// Code quality report of GitLab
+    Gitlab,
+    /// A summary in Markdown
+    Markdown,
+    /// A badge as SVG
+    Badge,
+    /// Prometheus text
+    Prometheus,
 }

@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod report;
 mod stamp;
+mod store;
 mod tree;
 mod write;
 

@@ -21,7 +21,15 @@ pub(crate) fn stamp(dir: &Path) -> Stamp {
         date: date(seconds),
         commit: commit.map_or(String::new(), |hash| format!("{hash}{mark}")),
         tool: concat!("rungbook ", env!("CARGO_PKG_VERSION")).to_owned(),
+        author: author(dir),
     }
+}
+
+/// Who runs the tool: as said in `RUNGBOOK_AUTHOR`, or by the pipeline that runs it, or by git's configuration.
+fn author(dir: &Path) -> String {
+    let variables = ["RUNGBOOK_AUTHOR", "GITLAB_USER_NAME", "GITHUB_ACTOR"];
+    let said = variables.iter().find_map(|name| std::env::var(name).ok().filter(|value| !value.trim().is_empty()));
+    said.or_else(|| git(dir, &["config", "user.name"])).map_or_else(String::new, |name| name.trim().to_owned())
 }
 
 fn git(dir: &Path, args: &[&str]) -> Option<String> {

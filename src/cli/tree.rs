@@ -45,6 +45,7 @@ pub(crate) fn read(
     }
     let name = dir.file_name().map_or_else(|| "manual".to_owned(), |name| name.to_string_lossy().into_owned());
     let fs = Disk::new(&dir).map_err(|error| Failure(format!("`{}`: {error}", dir.display())))?;
-    let project = pipeline::read(&fs, &name, &settings, &|event| progress.event(event));
+    let mut project = pipeline::read(&fs, &name, &settings, &|event| progress.event(event));
+    pipeline::allow(&mut project, &settings, &super::stamp::stamp(&dir).date);
     Ok((project, settings))
 }

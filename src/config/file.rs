@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use super::gate::{EvidenceSection, GateSection};
+
 /// The file.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -33,6 +35,12 @@ pub struct ConfigFile {
     /// `[verify]`
     #[serde(default)]
     pub verify: super::verify::VerifySection,
+    /// `[gate]`
+    #[serde(default)]
+    pub gate: GateSection,
+    /// `[evidence]`
+    #[serde(default)]
+    pub evidence: EvidenceSection,
     /// `[html]`
     #[serde(default)]
     pub html: HtmlSection,

@@ -4,6 +4,7 @@
 //! in. Nobody below this room imports it.
 
 pub mod file;
+pub mod gate;
 #[cfg(feature = "pdf")]
 mod pdf;
 pub mod settings;

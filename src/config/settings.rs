@@ -34,6 +34,12 @@ pub struct Settings {
     pub levels: Levels,
     /// The severity from which on `check` fails.
     pub deny: Severity,
+    /// The bar that a release has to clear.
+    pub gate: crate::evidence::policy::gate::Options,
+    /// The file of the baseline, below the root, if there is one.
+    pub baseline: Option<String>,
+    /// What goes into evidence.
+    pub evidence: super::gate::Evidence,
     /// Whether `build` writes the site.
     pub html: bool,
     /// Whether `build` writes the PDF.
@@ -86,6 +92,9 @@ impl Settings {
             verify: super::verify::Verification::new(file.verify)?,
             levels: levels(file.audit.rules)?,
             deny,
+            gate: file.gate.options()?,
+            baseline: file.gate.baseline,
+            evidence: file.evidence.options()?,
             html: file.html.enabled.unwrap_or(true),
             pdf: file.pdf.enabled.unwrap_or(true),
             pdf_section: file.pdf,

@@ -42,6 +42,23 @@ pub const TEMPLATE: &str = r##"# rungbook.toml: how the manual of this tree is m
 # block-without-table = "off"
 # undocumented-member = "warning"
 
+[gate]                   # `rungbook check` fails where one is not reached; without a key nothing is asked for
+# documented = 100       # at least so many percent of the entities are documented
+# verified = 100         # at least so many percent of the test tables are verified
+# no-violated = true     # no table is violated
+# no-stale = true        # no verdict is older than its block, its table or its options
+# no-suppressed-without-owner = true   # every `@allow` names an owner and a last day
+# no-breaking = true     # `rungbook diff`: no incompatible change
+# no-lost-evidence = true              # `rungbook diff`: no table that was verified and is not any more
+# baseline = "rungbook-baseline.json"  # findings in this file are allowed; `rungbook check --write-baseline` makes it
+
+[evidence]
+# store = "target/rungbook/evidence"   # the folder of records, below the root
+# sources = "full"       # what a bundle holds of the sources: full, digests
+# requirements = []      # lists of requirements: ["requirements.csv", "spec.reqif", "spec.sdoc"]
+# results = []           # results of other tools, never shown as verified: ["reports/junit.xml"]
+# sign-off = []          # names and roles on the sign-off page: ["Author: J. Doe", "Reviewer:"]
+
 [html]
 # enabled = true
 

@@ -5,6 +5,7 @@
 mod libraries;
 mod overrides;
 mod read;
+pub mod records;
 mod tables;
 
 use std::collections::BTreeMap;
@@ -14,6 +15,7 @@ use crate::book::{self, Narrative};
 use crate::config::Settings;
 use crate::diagnostic::Finding;
 use crate::docs::Docs;
+use crate::evidence::policy::allow::{self, Allowed};
 use crate::library::Catalogue;
 use crate::library::names::Names;
 use crate::library::relations::Relations;
@@ -51,6 +53,8 @@ pub struct Stamp {
     pub commit: String,
     /// The tool and its version.
     pub tool: String,
+    /// Who runs the tool; empty if unknown.
+    pub author: String,
 }
 
 /// A source tree, read and understood.
@@ -74,6 +78,8 @@ pub struct Project {
     pub tables: Vec<AttachedTable>,
     /// The findings of all rooms, with their configured severities, by file and place.
     pub findings: Vec<Finding>,
+    /// The findings that an allowance in the source lets pass.
+    pub allowed: Vec<Allowed>,
     /// Files whose kind is read, and that were not: path and reason.
     pub skipped: Vec<(String, String)>,
     /// How many files are no PLC source.
@@ -82,6 +88,15 @@ pub struct Project {
     pub narratives: Vec<Narrative>,
     /// The user's templates and theme files, by name.
     pub overrides: BTreeMap<String, String>,
+}
+
+/// Lets findings pass where the source says so; `today` is the stamp's date, after which an allowance no longer holds.
+pub fn allow(project: &mut Project, settings: &Settings, today: &str) {
+    let findings = std::mem::take(&mut project.findings);
+    let known = |code: &str| crate::audit::code(code).is_some();
+    let sorted = allow::apply(findings, &project.catalogue, &project.files, today, &known);
+    project.findings = read::in_order(sorted.findings, settings);
+    project.allowed = sorted.allowed;
 }
 
 /// The manual of `project`.

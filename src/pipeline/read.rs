@@ -43,6 +43,7 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
         docs,
         tables: tables.tables,
         findings,
+        allowed: Vec::new(),
         skipped,
         other_files,
         narratives: overrides::narratives(fs, &settings.manual),
@@ -63,7 +64,7 @@ fn walk(fs: &dyn FileSystem, settings: &Settings, events: &Events<'_>) -> Tree {
 }
 
 /// With their configured severities, by file and place; equal ones once.
-fn in_order(findings: Vec<Finding>, settings: &Settings) -> Vec<Finding> {
+pub(super) fn in_order(findings: Vec<Finding>, settings: &Settings) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
         findings.into_iter().filter_map(|finding| settings.levels.apply(finding)).collect();
     findings.sort_by(|a, b| {

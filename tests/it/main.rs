@@ -5,6 +5,7 @@
 mod cli;
 mod corpora;
 mod docs;
+mod evidence;
 mod html;
 mod library;
 mod logic;

@@ -19,7 +19,12 @@ pub(crate) fn settings(config: &str) -> Settings {
 
 /// The book of a tree, with a stamp that never changes.
 pub(crate) fn book(project: &Project) -> Book {
-    let stamp = Stamp { date: "2026-01-31".to_owned(), commit: "0123abc".to_owned(), tool: "rungbook test".to_owned() };
+    let stamp = Stamp {
+        date: "2026-01-31".to_owned(),
+        commit: "0123abc".to_owned(),
+        tool: "rungbook test".to_owned(),
+        ..Stamp::default()
+    };
     pipeline::book(project, &settings(""), &stamp)
 }
 

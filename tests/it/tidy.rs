@@ -24,12 +24,12 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("machine", &["library", "syntax", "logic", "semantics"]),
     ("prove", &["machine", "table", "logic", "semantics"]),
     ("recheck", &["machine", "table", "logic", "semantics"]),
-    ("evidence", &["prove", "recheck", "machine", "table", "library", "semantics", "logic"]),
-    ("audit", &["library", "docs", "table", "source", "syntax"]),
-    ("figure", &["library", "table"]),
-    ("book", &["library", "docs", "table", "audit", "figure"]),
+    ("evidence", &["table", "library", "syntax"]),
+    ("audit", &["library", "docs", "table", "source", "syntax", "evidence"]),
+    ("figure", &["library", "table", "machine", "prove"]),
+    ("book", &["library", "docs", "table", "audit", "figure", "evidence"]),
     ("render", &["book", "figure"]),
-    ("config", &["source", "docs", "audit", "table", "render", "prove", "machine"]),
+    ("config", &["source", "docs", "audit", "table", "render", "evidence", "prove", "machine"]),
     (
         "pipeline",
         &[
@@ -51,7 +51,27 @@ const ARROWS: &[(&str, &[&str])] = &[
             "evidence",
         ],
     ),
-    ("cli", &["pipeline", "config", "audit", "book", "render", "source", "table", "docs", "library"]),
+    (
+        "cli",
+        &[
+            "pipeline",
+            "config",
+            "audit",
+            "book",
+            "render",
+            "source",
+            "table",
+            "docs",
+            "library",
+            "evidence",
+            "prove",
+            "recheck",
+            "machine",
+            "semantics",
+            "logic",
+            "figure",
+        ],
+    ),
 ];
 
 fn rust_files(folder: &Path, out: &mut Vec<PathBuf>) {

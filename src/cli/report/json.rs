@@ -1,35 +1,73 @@
-//! Findings as one JSON object, for `check --format json`.
+//! `check --format json`: everything as one JSON object.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use crate::diagnostic::{Finding, Severity};
-use crate::text::Files;
+use super::outcome::{Outcome, Reported, Standing, TableLine};
+use crate::diagnostic::Severity;
 
-/// `{"findings": […], "totals": {…}, "failed": …}`.
-pub(crate) fn render(findings: &[Finding], files: &Files, failed: bool) -> String {
-    let count = |severity| findings.iter().filter(|finding| finding.severity == severity).count();
-    let list: Vec<Value> = findings.iter().map(|finding| one(finding, files)).collect();
+/// `{"findings": […], "totals": {…}, "tables": […], "gate": […], "failed": …}`; the totals count what counts.
+pub(crate) fn render(outcome: &Outcome<'_>) -> String {
+    let list: Vec<Value> = outcome.findings.iter().map(|reported| one(outcome, reported)).collect();
+    let gate = outcome
+        .gate
+        .iter()
+        .map(|line| json!({"key": line.key, "wanted": line.wanted, "found": line.found, "passed": line.passed}));
     let object = json!({
         "findings": list,
-        "totals": {
-            "error": count(Severity::Error),
-            "warning": count(Severity::Warning),
-            "info": count(Severity::Info),
-        },
-        "failed": failed,
+        "totals": totals(outcome),
+        "tables": outcome.tables.iter().map(table).collect::<Vec<_>>(),
+        "gate": gate.collect::<Vec<_>>(),
+        "failed": outcome.failed(),
     });
-    format!("{object:#}")
+    format!("{object:#}\n")
 }
 
-fn one(finding: &Finding, files: &Files) -> Value {
-    let at = files.line_column(finding.place);
+fn totals(outcome: &Outcome<'_>) -> Value {
+    let mut map = Map::new();
+    for severity in [Severity::Error, Severity::Warning, Severity::Info] {
+        map.insert(severity.name().to_owned(), outcome.count(severity, "new").into());
+    }
+    for standing in Standing::NAMES.iter().skip(1) {
+        let count = outcome.findings.iter().filter(|reported| reported.standing.name() == *standing).count();
+        map.insert((*standing).to_owned(), count.into());
+    }
+    let numbers = &outcome.numbers;
+    map.insert("baseline-gone".to_owned(), outcome.gone.into());
+    map.insert("entities".to_owned(), numbers.entities.into());
+    map.insert("documented".to_owned(), numbers.documented.into());
+    map.insert("tables".to_owned(), numbers.tables.into());
+    map.insert("verdicts".to_owned(), json!(numbers.verdicts));
+    Value::Object(map)
+}
+
+fn table(line: &TableLine) -> Value {
     json!({
+        "name": line.name,
+        "unit": line.block,
+        "file": line.file,
+        "line": line.line,
+        "verdict": line.verdict,
+        "detail": line.detail,
+        "engine": line.engine,
+    })
+}
+
+fn one(outcome: &Outcome<'_>, reported: &Reported<'_>) -> Value {
+    let finding = reported.finding;
+    let at = outcome.at(finding);
+    let mut value = json!({
         "code": finding.code.name,
         "severity": finding.severity.name(),
         "message": finding.message,
-        "file": files.get(finding.place.file).path,
+        "file": outcome.path(finding),
         "line": at.line,
         "column": at.column,
         "help": finding.help,
-    })
+        "standing": reported.standing.name(),
+        "fingerprint": reported.fingerprint,
+    });
+    if let Standing::Allowed(allowance) = &reported.standing {
+        value["allowed"] = json!({"reason": allowance.reason, "owner": allowance.owner, "until": allowance.until});
+    }
+    value
 }

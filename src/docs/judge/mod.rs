@@ -3,6 +3,7 @@
 //! Each judge looks at the clean text of one chunk. A licence or a history may be a part of a
 //! comment whose rest is documentation; then only that part is set aside.
 
+mod allowance;
 mod code;
 mod directive;
 mod heading;
@@ -31,7 +32,7 @@ pub(super) struct Judgement {
 
 /// Judges `chunk`, which may document something called `name`.
 pub(super) fn judge(chunk: &Chunk, name: &str) -> Judgement {
-    let (prose, history) = history::split(&chunk.text);
+    let (prose, history) = history::split(&allowance::without(&chunk.text));
     let prose = match prose {
         None => Err(if history.is_some() { Reason::History } else { Reason::Separator }),
         Some(prose) => judge_prose(chunk, prose, name),

@@ -2,7 +2,6 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
-use rungbook::logic::simulate::Stimulus;
 use rungbook::logic::system::{Input, Labelled, System};
 use rungbook::logic::term::{Pool, Term};
 use rungbook::table::automaton::encode::{Encoding, Sites, encode};
@@ -76,7 +75,7 @@ fn encoded(automaton: &Automaton, constraints: &[Letters], run: &[(u8, u8)], pre
     let (system, _) = system(automaton, constraints, precise);
     let inputs: Vec<Vec<u64>> = run.iter().map(|(a, b)| vec![u64::from(*a), u64::from(*b)]).collect();
     let mut out = Vec::new();
-    for cycle in system.simulate(&Stimulus { free: Vec::new(), inputs }) {
+    for cycle in system.simulate(&[], &inputs) {
         let [covered, lost, ended] = [0, 1, 2].map(|index| cycle.outputs[index] == 1);
         let outcome = match (covered, lost, ended) {
             (false, ..) => Outcome::Uncovered,

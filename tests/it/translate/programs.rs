@@ -42,6 +42,7 @@ pub(super) fn program(choices: &mut Choices<'_>) -> Program {
         cycle_time: 10_000_000,
         assumptions: Vec::new(),
         cone: Vec::new(),
+        enumerations: std::collections::BTreeMap::new(),
         variables: Vec::new(),
     }
 }

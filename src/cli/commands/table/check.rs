@@ -1,7 +1,7 @@
 //! `rungbook table check`: reads tables and reports what is wrong with them.
 
 use super::CheckArgs;
-use crate::cli::report::json;
+use crate::cli::report::findings;
 use crate::cli::{Exit, Failure, commands::check, print, say};
 use crate::table::lint;
 use crate::text::Files;
@@ -9,21 +9,21 @@ use crate::text::Files;
 pub(super) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let reading = args.read.reading()?;
     let mut files = Files::default();
-    let (mut findings, mut count) = (Vec::new(), 0);
+    let (mut all, mut count) = (Vec::new(), 0);
     for path in &args.files {
         let read = super::tables(path, &reading, &mut files)?;
         count += read.tables.len();
         let mut own = read.findings;
         own.extend(read.tables.iter().filter(|table| !table.has_errors()).flat_map(lint::lint));
         own.sort_by_key(|finding| finding.place);
-        findings.append(&mut own);
+        all.append(&mut own);
     }
     let deny = check::severity(args.deny);
-    let failed = findings.iter().any(|finding| finding.severity >= deny);
+    let failed = all.iter().any(|finding| finding.severity >= deny);
     match args.format {
-        crate::cli::args::Format::Json => print(&format!("{}\n", json::render(&findings, &files, failed))),
-        crate::cli::args::Format::Text => check::print_text(&findings, &files),
+        crate::cli::args::Output::Json => print(&format!("{}\n", findings::render(&all, &files, failed))),
+        crate::cli::args::Output::Text => check::print_findings(&all, &files),
     }
-    say(&format!("{count} tables, {}", check::totals(&findings)));
+    say(&format!("{count} tables, {}", check::count(&all)));
     Ok(if failed { Exit::Findings } else { Exit::Ok })
 }

@@ -13,7 +13,7 @@ pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     let read = super::tables(&args.input, &args.read.reading()?, &mut files)?;
     if read.has_errors() {
         let errors: Vec<_> = read.findings.into_iter().filter(|f| f.severity == Severity::Error).collect();
-        check::print_text(&errors, &files);
+        check::print_findings(&errors, &files);
         say(&format!("`{}` has errors; nothing was written", args.input.display()));
         return Ok(Exit::Findings);
     }

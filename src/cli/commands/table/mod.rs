@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use clap::{Args, Subcommand};
 
-use crate::cli::args::{Format, Level};
+use crate::cli::args::{Level, Output};
 use crate::cli::{Exit, Failure, tree};
 use crate::config::tables::TableReading;
 use crate::table::form::{self, Form};
@@ -60,8 +60,8 @@ struct CheckArgs {
     #[arg(long, value_enum, value_name = "SEVERITY", default_value = "warning")]
     deny: Level,
     /// How to print
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = Output::Text)]
+    format: Output,
 }
 
 #[derive(Debug, Args)]

@@ -1,0 +1,108 @@
+//! The gate: the numbers that a release has to reach.
+
+use std::collections::BTreeMap;
+
+/// The bar. What is `None` or `false` is not asked for.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// At least so many percent of the entities are documented.
+    pub documented: Option<u8>,
+    /// At least so many percent of the test tables are verified.
+    pub verified: Option<u8>,
+    /// No table is violated.
+    pub no_violated: bool,
+    /// No verdict is stale.
+    pub no_stale: bool,
+    /// Every allowance names who answers for it and until when.
+    pub no_suppressed_without_owner: bool,
+    /// No incompatible change against the compared release.
+    pub no_breaking: bool,
+    /// No evidence was lost against the compared release.
+    pub no_lost_evidence: bool,
+}
+
+/// What is measured.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Numbers {
+    /// Entities, members included.
+    pub entities: usize,
+    /// Those with documentation.
+    pub documented: usize,
+    /// Test tables.
+    pub tables: usize,
+    /// Test tables by verdict.
+    pub verdicts: BTreeMap<String, usize>,
+    /// Findings that an allowance lets pass although it lacks an owner or a day.
+    pub allowed_without_owner: usize,
+    /// Incompatible changes, where releases are compared.
+    pub breaking: Option<usize>,
+    /// Tables whose evidence was lost, where releases are compared.
+    pub lost: Option<usize>,
+}
+
+/// One line of the gate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// The key in `rungbook.toml`.
+    pub key: &'static str,
+    /// What is asked for.
+    pub wanted: String,
+    /// What is there.
+    pub found: String,
+    /// Whether it is reached.
+    pub passed: bool,
+}
+
+/// Every line that `options` asks for, in a fixed order.
+#[must_use]
+pub fn judge(options: &Options, numbers: &Numbers) -> Vec<Line> {
+    let count = |word: &str| numbers.verdicts.get(word).copied().unwrap_or(0);
+    let mut lines = Vec::new();
+    let mut percent = |key, wanted: Option<u8>, part: usize, whole: usize| {
+        if let Some(wanted) = wanted {
+            // Compared without rounding: 99.6 % of the tables are not 100 %.
+            let passed = part * 100 >= usize::from(wanted) * whole;
+            let found = if whole == 0 { "there is none".to_owned() } else { format!("{part} of {whole}") };
+            lines.push(Line { key, wanted: format!(">= {wanted} %"), found, passed });
+        }
+    };
+    percent("documented", options.documented, numbers.documented, numbers.entities);
+    percent("verified", options.verified, count("verified"), numbers.tables);
+    let mut none = |key, asked: bool, found: Option<usize>| {
+        if asked && let Some(found) = found {
+            lines.push(Line { key, wanted: "none".to_owned(), found: found.to_string(), passed: found == 0 });
+        }
+    };
+    none("no-violated", options.no_violated, Some(count("violated")));
+    none("no-stale", options.no_stale, Some(count("stale")));
+    none("no-suppressed-without-owner", options.no_suppressed_without_owner, Some(numbers.allowed_without_owner));
+    none("no-breaking", options.no_breaking, numbers.breaking);
+    none("no-lost-evidence", options.no_lost_evidence, numbers.lost);
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(verified: usize, tables: usize) -> Numbers {
+        let verdicts = [("verified".to_owned(), verified), ("violated".to_owned(), tables - verified)].into();
+        Numbers { tables, verdicts, ..Numbers::default() }
+    }
+
+    #[test]
+    fn percentages_are_not_rounded_up() {
+        let options = Options { verified: Some(100), ..Options::default() };
+        assert!(!judge(&options, &numbers(999, 1000))[0].passed);
+        assert!(judge(&options, &numbers(1000, 1000))[0].passed);
+    }
+
+    #[test]
+    fn only_what_is_asked_for_is_judged() {
+        assert!(judge(&Options::default(), &numbers(0, 5)).is_empty());
+        let options = Options { no_violated: true, no_breaking: true, ..Options::default() };
+        let lines = judge(&options, &numbers(4, 5));
+        assert_eq!(lines.len(), 1, "nothing is compared, so nothing breaks");
+        assert!(!lines[0].passed);
+    }
+}
