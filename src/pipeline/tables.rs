@@ -14,7 +14,7 @@ use crate::source::{TableFile, Tree};
 use crate::table::codes::{MISSING_TABLE_FILE, UNATTACHED_TABLE};
 use crate::table::read::{self, Read};
 use crate::table::{AttachedTable, Piece, Table, TableError};
-use crate::table::{form, lint};
+use crate::table::{bind, form, lint};
 use crate::text::FileId;
 
 /// The tables and what is wrong with them.
@@ -32,7 +32,7 @@ pub(super) fn attach(tree: &Tree, catalogue: &Catalogue, names: &Names, docs: &D
         let Some(doc) = docs.item(id).doc.as_ref().filter(|_| docs.item(id).inherited_from.is_none()) else { continue };
         for text in &doc.tables {
             let piece = Piece::new(text.place.file, &text.text, &text.map);
-            all.take(read::pipe::read(&piece, &reading.all), |_| Some(id));
+            all.take(read::pipe::read(&piece, &reading.all), (catalogue, names), |_| Some(id));
         }
         for (path, place) in &doc.tags.gtt_paths {
             let wanted = beside(&tree.files.get(item.place.file).path, path);
@@ -49,7 +49,7 @@ pub(super) fn attach(tree: &Tree, catalogue: &Catalogue, names: &Names, docs: &D
     for table in &tree.tables {
         let read = file(tree, table, reading);
         let by_path = named.get(&table.path).copied();
-        all.take(read, |found| by_path.or_else(|| owners.of(table, found)));
+        all.take(read, (catalogue, names), |found| by_path.or_else(|| owners.of(table, found)));
     }
     all
 }
@@ -64,25 +64,32 @@ fn file(tree: &Tree, table: &TableFile, reading: &TableReading) -> Read {
 }
 
 impl Tables {
-    fn take(&mut self, read: Read, owner: impl Fn(&Table) -> Option<ItemId>) {
-        for table in read.tables {
+    fn take(&mut self, read: Read, (catalogue, names): (&Catalogue, &Names), owner: impl Fn(&Table) -> Option<ItemId>) {
+        for mut table in read.tables {
             let inside = |finding: &&Finding| {
                 finding.severity == Severity::Error
                     && finding.place.file == table.place.file
                     && table.place.span.contains(finding.place.span)
             };
             let error = |finding: &Finding| TableError { message: finding.message.clone(), place: finding.place };
-            let errors = read.findings.iter().filter(inside).map(error).collect();
+            let mut errors: Vec<TableError> = read.findings.iter().filter(inside).map(error).collect();
             let item = owner(&table);
             if item.is_none() {
                 let message = format!("test table `{}` belongs to no block", table.name);
                 let help = "name the file after its block, or write `for BLOCK` in the table's heading";
                 self.findings.push(Finding::new(&UNATTACHED_TABLE, table.place, message).help(help));
             }
+            let bound = item.map(|item| {
+                let (bound, findings) = bind::bind(&table, catalogue, names, item);
+                errors.extend(findings.iter().filter(|f| f.severity == Severity::Error).map(error));
+                self.findings.extend(findings);
+                bound
+            });
             if !table.has_errors() {
                 self.findings.extend(lint::lint(&table));
             }
-            self.tables.push(AttachedTable { table, item, errors });
+            table.errors = bound.as_ref().map_or(table.errors, |bound| bound.errors);
+            self.tables.push(AttachedTable { table, item, errors, bound });
         }
         self.findings.extend(read.findings);
     }

@@ -12,6 +12,8 @@ pub struct AttachedTable {
     pub item: Option<ItemId>,
     /// The messages of the errors in it.
     pub errors: Vec<TableError>,
+    /// The table bound to its block, where it could be read and its block is known.
+    pub bound: Option<super::bind::BoundTable>,
 }
 
 /// An error in a table, as its page shows it.

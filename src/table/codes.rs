@@ -108,8 +108,31 @@ pub static TABLE_EARLY_PAST: Code =
 pub static TABLE_BLANK_REPEATS: Code =
     Code { name: "table-blank-repeats", severity: Severity::Info, page: include_str!("pages/table-blank-repeats.md") };
 
+/// A name in a cell or a header that nothing has.
+pub static TABLE_UNKNOWN_NAME: Code =
+    Code { name: "table-unknown-name", severity: Severity::Error, page: include_str!("pages/table-unknown-name.md") };
+
+/// A cell whose type is not that of its column.
+pub static TABLE_TYPE: Code =
+    Code { name: "table-type", severity: Severity::Error, page: include_str!("pages/table-type.md") };
+
+/// A header that declares another type than the variable has.
+pub static TABLE_DECLARED_TYPE: Code = Code {
+    name: "table-declared-type",
+    severity: Severity::Warning,
+    page: include_str!("pages/table-declared-type.md"),
+};
+
+/// A column that assumes what the unit does, or asserts what its environment does.
+pub static TABLE_DIRECTION: Code =
+    Code { name: "table-direction", severity: Severity::Warning, page: include_str!("pages/table-direction.md") };
+
 /// All codes of the room.
 pub static ALL: &[&Code] = &[
+    &TABLE_UNKNOWN_NAME,
+    &TABLE_TYPE,
+    &TABLE_DECLARED_TYPE,
+    &TABLE_DIRECTION,
     &TABLE_SYNTAX,
     &TABLE_CELL,
     &TABLE_FUTURE_REFERENCE,

@@ -6,6 +6,7 @@
 
 pub mod attach;
 pub mod automaton;
+pub mod bind;
 pub mod cell;
 pub mod codes;
 pub mod duration;

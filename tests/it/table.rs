@@ -2,6 +2,7 @@
 
 mod automaton;
 mod automaton_terms;
+mod bind;
 mod cells;
 mod corpora;
 mod fuzz;
