@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::logic::aig::Model;
+use crate::logic::aig::{Lit, Model};
 
 /// A literal of a proof: what it is about, and whether it is to be true. Numbers below the count of latches are latches
 /// of the model, in its order; the ones above are the proof's gates.
@@ -147,6 +147,13 @@ impl Budget {
     pub fn exhausted_with(&self, bytes: usize) -> Option<Reason> {
         self.exhausted().or_else(|| (bytes > self.memory).then_some(Reason::Memory))
     }
+}
+
+/// What is known of a model beyond its bits.
+#[derive(Clone, Debug, Default)]
+pub struct Hints {
+    /// Words of latches, the least significant bit first: between these, relations are looked for.
+    pub words: Vec<Vec<Lit>>,
 }
 
 /// A way to decide a property.

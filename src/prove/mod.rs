@@ -5,10 +5,12 @@
 
 pub mod engine;
 pub mod ic3;
+pub mod mine;
 pub mod options;
 pub mod simulate;
 pub mod verdict;
 
+mod asker;
 mod cdcl;
 mod encode;
 mod problem;

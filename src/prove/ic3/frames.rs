@@ -1,7 +1,7 @@
 //! Cubes and frames: which states are excluded, and until when.
 
+use super::super::asker::Asker;
 use super::super::engine::Answer;
-use super::query::Asker;
 use super::{Ic3Search, Stop, negated, now};
 use crate::logic::aig::Lit;
 

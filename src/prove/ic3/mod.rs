@@ -15,6 +15,7 @@ mod frames;
 mod generalize;
 mod query;
 
+use super::asker::Asker;
 use super::cdcl::Solver;
 use super::encode::Encoding;
 use super::engine::{Answer, Budget, Engine, Progress, Reason, Search, Trace, bounded, drive};
@@ -22,7 +23,6 @@ use super::problem::Problem;
 use crate::logic::aig::{Lit, Model};
 use block::Queue;
 use frames::{Cube, Frame};
-use query::Asker;
 
 /// The engine.
 #[derive(Clone, Copy, Debug, Default)]

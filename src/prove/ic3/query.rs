@@ -1,53 +1,12 @@
 //! The questions that the search asks.
 
-use super::super::cdcl::{Domain, Solver};
-use super::super::encode::Encoding;
+use super::super::asker::Asker;
 use super::frames::Cube;
 use super::{Ic3Search, Stop, negated, next, now};
 use crate::logic::aig::Lit;
 
-/// A solver of the transition relation, and the variables that its clauses speak of beside the gates.
-pub(super) struct Asker {
-    pub(super) solver: Solver,
-    base: Vec<u32>,
-    marked: Vec<bool>,
-}
-
 /// Work for the first try at a question; then twice as much.
 const FIRST_TRY: u64 = 20_000_000;
-
-impl Asker {
-    pub(super) fn new(encoding: &Encoding, facts: &[Vec<Lit>]) -> Self {
-        let mut solver = Solver::new();
-        solver.reserve(encoding.variables);
-        for clause in encoding.clauses() {
-            solver.add(clause);
-        }
-        let mut asker = Self { solver, base: Vec::new(), marked: vec![false; encoding.variables] };
-        for fact in facts {
-            asker.require(encoding, fact);
-        }
-        asker
-    }
-
-    /// Adds a clause for good.
-    pub(super) fn require(&mut self, encoding: &Encoding, clause: &[Lit]) {
-        self.solver.add(clause);
-        encoding.close(clause.iter().map(|l| l.node()), &mut self.base, &mut self.marked);
-    }
-
-    /// One question about what the assumptions and the extra clause rest on.
-    fn ask(&mut self, encoding: &Encoding, assumptions: &[Lit], extra: Option<&[Lit]>, budget: u64) -> Option<bool> {
-        let base = self.base.len();
-        let about = assumptions.iter().chain(extra.unwrap_or(&[])).map(|l| l.node());
-        encoding.close(about, &mut self.base, &mut self.marked);
-        let answer = self.solver.solve(assumptions, extra, Domain::Of(&self.base), budget);
-        for variable in self.base.drain(base..) {
-            self.marked[variable as usize] = false;
-        }
-        answer
-    }
-}
 
 /// Which solver.
 #[derive(Clone, Copy)]
