@@ -1,0 +1,45 @@
+//! A solver of a transition relation, asked about parts of it at a time.
+
+use super::cdcl::{Domain, Solver};
+use super::encode::Encoding;
+use crate::logic::aig::Lit;
+
+/// A solver of the transition relation, and the variables that its clauses speak of beside the gates.
+pub(crate) struct Asker {
+    pub(crate) solver: Solver,
+    base: Vec<u32>,
+    marked: Vec<bool>,
+}
+
+impl Asker {
+    pub(crate) fn new(encoding: &Encoding, facts: &[Vec<Lit>]) -> Self {
+        let mut solver = Solver::new();
+        solver.reserve(encoding.variables);
+        for clause in encoding.clauses() {
+            solver.add(clause);
+        }
+        let mut asker = Self { solver, base: Vec::new(), marked: vec![false; encoding.variables] };
+        for fact in facts {
+            asker.require(encoding, fact);
+        }
+        asker
+    }
+
+    /// Adds a clause for good.
+    pub(crate) fn require(&mut self, encoding: &Encoding, clause: &[Lit]) {
+        self.solver.add(clause);
+        encoding.close(clause.iter().map(|l| l.node()), &mut self.base, &mut self.marked);
+    }
+
+    /// One question about what the assumptions and the extra clause rest on.
+    pub(crate) fn ask(&mut self, encoding: &Encoding, assumptions: &[Lit], extra: Option<&[Lit]>, budget: u64) -> Option<bool> {
+        let base = self.base.len();
+        let about = assumptions.iter().chain(extra.unwrap_or(&[])).map(|l| l.node());
+        encoding.close(about, &mut self.base, &mut self.marked);
+        let answer = self.solver.solve(assumptions, extra, Domain::Of(&self.base), budget);
+        for variable in self.base.drain(base..) {
+            self.marked[variable as usize] = false;
+        }
+        answer
+    }
+}

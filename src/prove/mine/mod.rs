@@ -1,0 +1,151 @@
+//! Guessing invariants and keeping those that are inductive together.
+//!
+//! Flanagan and Leino, "Houdini, an annotation assistant" (FME 2001), with guesses as sequential sweeping makes them (van
+//! Eijk, "Sequential equivalence checking without state space traversal", DATE 1998; Mony, Baumgartner, Mishchenko,
+//! Brayton, "Speculative reduction-based scalable redundancy identification", DATE 2009): what random runs show to be
+//! constant, equal or implied, among latches, gates over latches, and predicates over words of latches: orders,
+//! equalities and linear relations. Timers and the counters that tables keep beside them are mostly settled by that.
+//!
+//! The guesses are clauses over latches' cones, so that what survives is an ordinary invariant. Left out: gates over
+//! inputs (their equivalence is no invariant of states), induction over more than one cycle.
+
+mod houdini;
+mod predicates;
+mod sample;
+
+use super::engine::{Answer, Budget, Engine, Hints, Progress, Reason};
+use super::problem::Problem;
+use crate::logic::aig::{Gate, Lit, Model};
+use houdini::Houdini;
+use sample::Samples;
+
+/// The engine.
+#[derive(Clone, Debug, Default)]
+pub struct Mine {
+    /// Words to relate.
+    pub hints: Hints,
+}
+
+impl Engine for Mine {
+    fn name(&self) -> &'static str {
+        "mine"
+    }
+
+    fn run(&self, model: &Model, property: usize, budget: &Budget, progress: &dyn Fn(Progress)) -> Answer {
+        progress(Progress { engine: "mine", depth: 1, clauses: 0 });
+        match mine(Problem::new(model, property), &self.hints, budget) {
+            Ok(Mined::Proved(answer)) => answer,
+            Ok(Mined::Enriched(_)) => Answer::GaveUp(Reason::Incomplete),
+            Err(reason) => Answer::GaveUp(reason),
+        }
+    }
+}
+
+/// What mining leads to.
+pub(crate) enum Mined {
+    /// The facts imply the property.
+    Proved(Answer),
+    /// They do not; other engines may use them.
+    Enriched(Problem),
+}
+
+/// Most nodes that are compared pair by pair for implications.
+const PAIRED: usize = 160;
+
+/// Finds facts and adds them to the problem.
+pub(crate) fn mine(mut problem: Problem, hints: &Hints, budget: &Budget) -> Result<Mined, Reason> {
+    let sampled = Samples::take(&problem.model, &[], &hints.words);
+    let predicates = predicates::between(&mut problem, &hints.words, &sampled);
+    let guesses = guess(&problem, &predicates);
+    let mut houdini = Houdini::new(&mut problem, guesses);
+    houdini.settle(budget)?;
+    if let Some(clauses) = houdini.imply_property(budget)? {
+        return Ok(Mined::Proved(Answer::Proved(problem.proof(&clauses, 1, false))));
+    }
+    let facts = houdini.surviving();
+    let spoken: std::collections::BTreeSet<u32> = facts.iter().flatten().map(|l| l.node()).collect();
+    problem.facts = facts;
+    for predicate in predicates {
+        if spoken.contains(&predicate.node()) {
+            problem.add_signal(predicate);
+        }
+    }
+    Ok(Mined::Enriched(problem))
+}
+
+/// Gates whose cones hold latches and no inputs.
+fn state_gates(model: &Model) -> Vec<Lit> {
+    let mut over_state = vec![false; model.aig.len()];
+    over_state[0] = true;
+    for latch in &model.latches {
+        over_state[latch.lit.node() as usize] = true;
+    }
+    let mut gates = Vec::new();
+    for node in 0..model.aig.len() as u32 {
+        if let Gate::And(a, b) = model.aig.gate(node)
+            && over_state[a.node() as usize]
+            && over_state[b.node() as usize]
+        {
+            over_state[node as usize] = true;
+            gates.push(Lit::of(node));
+        }
+    }
+    gates
+}
+
+/// Clauses that no random run contradicts.
+fn guess(problem: &Problem, predicates: &[Lit]) -> Vec<Vec<Lit>> {
+    let model = &problem.model;
+    let latches: Vec<Lit> = model.latches.iter().map(|l| l.lit).collect();
+    let mut nodes = latches.clone();
+    nodes.extend(state_gates(model));
+    nodes.sort_unstable();
+    nodes.dedup();
+    let samples = Samples::take(model, &nodes, &[]);
+    let (mut guesses, leaders) = classes(&samples, &nodes);
+    let mut paired: Vec<Lit> = Vec::new();
+    for &lit in latches.iter().filter(|l| !in_word(problem, **l, predicates)).chain(predicates).chain(&latches) {
+        if leaders.contains(&lit) && paired.len() < PAIRED && !paired.contains(&lit) {
+            paired.push(lit);
+        }
+    }
+    for (i, &a) in paired.iter().enumerate() {
+        for &b in &paired[..i] {
+            for (a, b) in [(a, b), (!a, b), (a, !b), (!a, !b)] {
+                if !samples.both(&nodes, !a, !b) {
+                    guesses.push(vec![a, b]);
+                }
+            }
+        }
+    }
+    guesses
+}
+
+/// Whether predicates speak of words at all; then bits of words are paired last.
+fn in_word(problem: &Problem, lit: Lit, predicates: &[Lit]) -> bool {
+    let cone = super::problem::cone(&problem.model, predicates);
+    cone.binary_search(&lit.node()).is_ok()
+}
+
+/// Guesses that nodes are constant, or equal to an earlier one up to inversion; and the nodes that are neither.
+fn classes(samples: &Samples, nodes: &[Lit]) -> (Vec<Vec<Lit>>, std::collections::BTreeSet<Lit>) {
+    let mut guesses = Vec::new();
+    let mut leaders = std::collections::BTreeSet::new();
+    let mut known: std::collections::BTreeMap<Vec<u64>, Lit> = std::collections::BTreeMap::new();
+    for (index, &node) in nodes.iter().enumerate() {
+        let (flipped, signature) = samples.normal(index);
+        if signature.iter().all(|&s| s == 0) {
+            guesses.push(vec![node.invert_if(!flipped)]);
+            continue;
+        }
+        let lit = node.invert_if(flipped);
+        if let Some(&leader) = known.get(&signature) {
+            guesses.push(vec![!lit, leader]);
+            guesses.push(vec![lit, !leader]);
+        } else {
+            known.insert(signature, lit);
+            leaders.insert(node);
+        }
+    }
+    (guesses, leaders)
+}

@@ -1,0 +1,125 @@
+//! Random runs, and what nodes and words were in them.
+
+use super::super::simulate::{Random, Simulator};
+use crate::logic::aig::{Lit, Model};
+
+/// Values in the cycles that were looked at.
+pub(super) struct Samples {
+    /// For each node, a word for each cycle: a bit for each of 64 runs; false outside of `valid`.
+    nodes: Vec<Vec<u64>>,
+    valid: Vec<u64>,
+    /// For each word, values of some runs in some cycles.
+    pub(super) words: Vec<Vec<u64>>,
+}
+
+/// Episodes, and cycles in each.
+const EPISODES: [usize; 6] = [12, 12, 40, 100, 300, 1500];
+
+impl Samples {
+    pub(super) fn take(model: &Model, nodes: &[Lit], words: &[Vec<Lit>]) -> Self {
+        let mut samples =
+            Self { nodes: vec![Vec::new(); nodes.len()], valid: Vec::new(), words: vec![Vec::new(); words.len()] };
+        let mut random = Random::new(1);
+        for (episode, &cycles) in EPISODES.iter().enumerate() {
+            samples.episode(model, nodes, words, &mut random, (episode, cycles));
+        }
+        samples
+    }
+
+    fn episode(
+        &mut self,
+        model: &Model,
+        nodes: &[Lit],
+        words: &[Vec<Lit>],
+        random: &mut Random,
+        (episode, cycles): (usize, usize),
+    ) {
+        let mut run = Simulator::new(model);
+        let first: Vec<u64> = model
+            .latches
+            .iter()
+            .map(|l| l.initial.map_or_else(|| random.next(), |v| if v { u64::MAX } else { 0 }))
+            .collect();
+        run.start(|index| first[index]);
+        let mut inputs: Vec<u64> = model.inputs.iter().map(|_| random.next()).collect();
+        let mut alive = u64::MAX;
+        for cycle in 0..cycles {
+            if cycle > 0 {
+                run.step();
+            }
+            let before = inputs.clone();
+            for input in &mut inputs {
+                let keep = if episode % 2 == 0 { 0 } else { random.next() | random.next() | random.next() };
+                *input = (*input & keep) | (random.next() & !keep);
+            }
+            alive = constrained(model, &mut run, &mut inputs, &before, alive, random);
+            if cycle < 64 || cycle % 16 == 0 {
+                self.record(&run, nodes, words, alive);
+            }
+            if alive == 0 {
+                break;
+            }
+        }
+    }
+
+    fn record(&mut self, run: &Simulator<'_>, nodes: &[Lit], words: &[Vec<Lit>], alive: u64) {
+        self.valid.push(alive);
+        for (values, &node) in self.nodes.iter_mut().zip(nodes) {
+            values.push(run.value(node) & alive);
+        }
+        for (values, word) in self.words.iter_mut().zip(words) {
+            for lane in (0..64).step_by(13).filter(|lane| alive >> lane & 1 == 1) {
+                let bits = word.iter().take(64).enumerate();
+                values.push(bits.map(|(i, &b)| (run.value(b) >> lane & 1) << i).sum());
+            }
+        }
+    }
+
+    /// The values of a node, inverted if that makes the first one false; and whether it was.
+    pub(super) fn normal(&self, index: usize) -> (bool, Vec<u64>) {
+        let values = &self.nodes[index];
+        let first = self.valid.iter().zip(values).find(|(valid, _)| **valid != 0);
+        let flipped = first.is_some_and(|(valid, value)| value >> valid.trailing_zeros() & 1 == 1);
+        let normal = self.valid.iter().zip(values).map(|(&m, &v)| if flipped { !v & m } else { v }).collect();
+        (flipped, normal)
+    }
+
+    /// Whether two literals over sorted `nodes` were true together.
+    pub(super) fn both(&self, nodes: &[Lit], a: Lit, b: Lit) -> bool {
+        let find = |l: Lit| nodes.binary_search(&Lit::of(l.node())).ok();
+        let (Some(i), Some(j)) = (find(a), find(b)) else { return true };
+        self.valid.iter().enumerate().any(|(at, &valid)| {
+            let of = |values: &[u64], l: Lit| if l.inverted() { !values[at] } else { values[at] };
+            of(&self.nodes[i], a) & of(&self.nodes[j], b) & valid != 0
+        })
+    }
+}
+
+/// Evaluates the cycle; where a constraint fails, tries other inputs a few times. The runs in which all constraints hold.
+fn constrained(
+    model: &Model,
+    run: &mut Simulator<'_>,
+    inputs: &mut [u64],
+    before: &[u64],
+    alive: u64,
+    random: &mut Random,
+) -> u64 {
+    let tries = if model.constraints.is_empty() { 1 } else { 8 };
+    let mut holding = 0;
+    for attempt in 0..tries {
+        run.evaluate(|index| inputs[index]);
+        holding = model.constraints.iter().fold(alive, |all, &c| all & run.value(c));
+        if holding == alive || attempt + 1 == tries {
+            break;
+        }
+        for (input, &before) in inputs.iter_mut().zip(before) {
+            let fresh = match attempt % 3 {
+                0 => before,
+                1 => random.next(),
+                _ => random.next() & random.next(),
+            };
+            *input = (*input & holding) | (fresh & !holding);
+        }
+    }
+    holding
+}
