@@ -26,7 +26,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("recheck", &["machine", "table", "logic", "semantics"]),
     ("evidence", &["prove", "recheck", "machine", "table", "library", "semantics", "logic"]),
     ("audit", &["library", "docs", "table", "source", "syntax"]),
-    ("figure", &["library", "table"]),
+    ("figure", &["library", "table", "machine"]),
     ("book", &["library", "docs", "table", "audit", "figure"]),
     ("render", &["book", "figure"]),
     ("config", &["source", "docs", "audit", "table", "render", "prove", "machine"]),
