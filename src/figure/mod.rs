@@ -11,6 +11,7 @@ pub mod inheritance;
 pub mod interface;
 mod metrics;
 pub mod svg;
+pub mod timing;
 
 /// A finished drawing.
 #[derive(Clone, Debug, PartialEq)]
