@@ -36,7 +36,8 @@ fn the_folder_is_a_library_without_other_findings() {
     let output = command.args(["check", "--deny", "error"]).arg(folder()).output().expect("it runs");
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).expect("UTF-8");
-    let findings = text.lines().filter(|line| ["error[", "warning[", "info["].iter().any(|kind| line.starts_with(kind)));
+    let findings =
+        text.lines().filter(|line| ["error[", "warning[", "info["].iter().any(|kind| line.starts_with(kind)));
     let others: Vec<_> = findings.filter(|line| !line.contains("[unverified-table]")).collect();
     assert_eq!(others, Vec::<&str>::new());
 }
