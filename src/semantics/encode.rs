@@ -149,9 +149,10 @@ fn branches<L, C: Context<L>>(
             term
         }
     };
+    let yes = context.pool().truth(true);
     match context.pool().value(condition) {
-        Some(0) => branch(context, condition, otherwise),
-        Some(_) => branch(context, condition, then),
+        Some(0) => branch(context, yes, otherwise),
+        Some(_) => branch(context, yes, then),
         None => {
             let yes = branch(context, condition, then)?;
             let opposite = context.pool().apply(term::Op::Not, &[condition]);
