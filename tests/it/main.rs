@@ -5,6 +5,7 @@
 mod cli;
 mod corpora;
 mod docs;
+mod fuzz;
 mod html;
 mod library;
 mod model;
