@@ -24,6 +24,7 @@ codes! {
     MALFORMED_XML "malformed-xml" Error;
     DOCUMENT_TYPE "document-type" Warning;
     EMPTY_CONTAINER "empty-container" Warning;
+    UNREAD_DIALECT "unread-dialect" Warning;
     UNKNOWN_OBJECT "unknown-object" Info;
     PROJECT_NAMES_MISSING_FILE "project-names-missing-file" Warning;
     NOT_IN_PROJECT "not-in-project" Warning;

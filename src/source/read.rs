@@ -174,8 +174,19 @@ impl Reader<'_> {
                 let unwrapped = format.unwrap(&input);
                 Outcome::Unit { text, encoding, format, unwrapped }
             }
+            None if formats::plain::is_guarded_chart(&text) => unread_dialect(candidate.path),
             None => Outcome::Skipped(codes::NOT_A_PLC_SOURCE),
         }
+    }
+}
+
+fn unread_dialect(path: &str) -> Outcome {
+    Outcome::Failed {
+        code: &codes::UNREAD_DIALECT,
+        encoding: Encoding::Binary("not read"),
+        reason: "a dialect that is not read".into(),
+        message: format!("`{}` is a chart `SFC … END_SFC`, which is not read", paths::name(path)),
+        help: Some("write the steps and transitions of IEC 61131-3"),
     }
 }
 
@@ -242,7 +253,11 @@ impl Assembly {
             Outcome::Unit { text, encoding, format, unwrapped } => {
                 let mut notes = unwrapped.notes;
                 notes.extend(guessed(&encoding));
+                let bytes = unwrapped.tables.then(|| Arc::from(text.as_bytes()));
                 let file = self.file(path, text, encoding, notes);
+                if let Some(bytes) = bytes {
+                    self.tree.tables.push(TableFile { file, path: path.to_owned(), bytes });
+                }
                 self.drafts.extend(unwrapped.project.map(|draft| (file, draft)));
                 self.tree.units.push(Unit {
                     file,

@@ -17,6 +17,10 @@ pub static MISSING_END: Code =
 pub static MISSING_SEMICOLON: Code =
     Code { name: "missing-semicolon", severity: Severity::Warning, page: include_str!("pages/missing-semicolon.md") };
 
+/// An operator of another language; it was read as the one that it stands for.
+pub static FOREIGN_OPERATOR: Code =
+    Code { name: "foreign-operator", severity: Severity::Warning, page: include_str!("pages/foreign-operator.md") };
+
 /// A comment or pragma that is never closed.
 pub static UNTERMINATED_COMMENT: Code = Code {
     name: "unterminated-comment",
@@ -37,6 +41,7 @@ pub static ALL: &[&Code] = &[
     &UNREADABLE_CONSTRUCT,
     &MISSING_END,
     &MISSING_SEMICOLON,
+    &FOREIGN_OPERATOR,
     &UNTERMINATED_COMMENT,
     &UNTERMINATED_STRING,
     &NESTING_TOO_DEEP,

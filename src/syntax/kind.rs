@@ -135,6 +135,7 @@ token_kinds! {
         Interface = "INTERFACE", Class = "CLASS", Method = "METHOD",
         Property = "PROPERTY", PropertyGet = "PROPERTY_GET", PropertySet = "PROPERTY_SET", Get = "GET", Set = "SET",
         EndPropertyGet = "END_PROPERTY_GET", EndPropertySet = "END_PROPERTY_SET",
+        Algorithm = "ALGORITHM", EndAlgorithm = "END_ALGORITHM",
         Action = "ACTION", Actions = "ACTIONS", EndActions = "END_ACTIONS", Transition = "TRANSITION",
         InitialStep = "INITIAL_STEP", Step = "STEP", From = "FROM", Priority = "PRIORITY",
         Namespace = "NAMESPACE", Using = "USING", Configuration = "CONFIGURATION", Resource = "RESOURCE",
@@ -230,7 +231,7 @@ node_kinds! {
     Property,
     /// `GET … END_GET` or `SET … END_SET` of a property.
     Accessor,
-    /// `ACTION … END_ACTION`.
+    /// `ACTION … END_ACTION`, `ALGORITHM … END_ALGORITHM` (IEC 61499).
     Action,
     /// `ACTIONS pou … END_ACTIONS`: the actions of a POU, apart from it.
     Actions,
@@ -388,4 +389,6 @@ node_kinds! {
     InstructionList,
     /// One instruction.
     Instruction,
+    /// `EVENT_INPUT … END_EVENT`, `EC_STATES … END_STATES` and the like (IEC 61499), as tokens.
+    EventSection,
 }

@@ -100,8 +100,10 @@ enum Raw {
     #[token("/=")]
     SlashAssign,
     #[token("=")]
+    #[token("==")]
     Equal,
     #[token("<>")]
+    #[token("!=")]
     NotEqual,
     #[token("<")]
     Less,

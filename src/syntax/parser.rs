@@ -295,12 +295,14 @@ impl<'t> Parser<'t> {
         self.error_at(self.span_of(self.position), &codes::UNREADABLE_CONSTRUCT, message.into());
     }
 
-    /// Says `message` about the current token, and what would help.
-    pub(super) fn error_with_help(&mut self, message: &str, help: &str) {
+    /// Says that the current token is an operator of another language, and is read as the one of this that it describes.
+    pub(super) fn foreign_operator(&mut self) {
+        let (written, meant) = (self.nth_text(0), self.current().describe());
+        let message = format!("`{written}` was read as {meant}");
         let before = self.errors.len();
-        self.error(message);
+        self.error_at(self.span_of(self.position), &codes::FOREIGN_OPERATOR, message);
         if let Some(error) = self.errors.get_mut(before) {
-            error.help = Some(help.to_owned());
+            error.help = Some(format!("write {meant} to compare"));
         }
     }
 

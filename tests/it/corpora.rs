@@ -9,7 +9,9 @@ use std::fs;
 use std::path::Path;
 
 use rungbook::book::model;
+use rungbook::diagnostic::{Finding, Severity};
 use rungbook::source::Disk;
+use rungbook::syntax::{Node, NodeKind, codes};
 
 use crate::support::{book, settings};
 
@@ -171,4 +173,72 @@ fn no_header_is_lost() {
         lost_in_all += lost.len();
     }
     assert_eq!(lost_in_all, 0);
+}
+
+/// The outermost bodies below `node` that hold statements or a chart, without those of Instruction List.
+fn bodies<'t>(node: Node<'t>, out: &mut Vec<Node<'t>>) {
+    for child in node.children() {
+        let listed = child.children().any(|inner| inner.kind() == NodeKind::InstructionList);
+        if child.kind() != NodeKind::Body {
+            bodies(child, out);
+        } else if !listed {
+            out.push(child);
+        }
+    }
+}
+
+/// How many bodies a tree has, and how many of them hold an error finding; each error with its place.
+#[test]
+#[ignore = "needs RUNGBOOK_CORPORA, a folder of source trees"]
+fn bodies_are_read() {
+    let root = std::env::var("RUNGBOOK_CORPORA").expect("RUNGBOOK_CORPORA names a folder of trees");
+    let mut trees: Vec<_> = fs::read_dir(root).expect("a folder").flatten().map(|entry| entry.path()).collect();
+    trees.sort();
+    let (mut all, mut broken) = (0, 0);
+    for tree in trees {
+        let fs = Disk::new(&tree).expect("a folder");
+        let project = rungbook::pipeline::read(&fs, "tree", &settings(""), &|_| {});
+        let syntax = |finding: &&Finding| {
+            finding.severity == Severity::Error && codes::ALL.iter().any(|code| code.name == finding.code.name)
+        };
+        let errors: Vec<&Finding> = project.findings.iter().filter(syntax).collect();
+        let mut of_bodies = vec![false; errors.len()];
+        let (mut here, mut broken_here) = (0, 0);
+        for source in &project.catalogue.sources {
+            let mut found = Vec::new();
+            source.tree.iter().for_each(|tree| bodies(tree.root(), &mut found));
+            for body in found {
+                let span = source.fragment.map.span(body.span());
+                let inside = |error: &Finding| {
+                    error.place.file == source.file
+                        && error.place.span.start >= span.start
+                        && error.place.span.start <= span.end
+                };
+                let mut any = false;
+                for (error, of_body) in errors.iter().zip(&mut of_bodies) {
+                    let inside = inside(error);
+                    *of_body |= inside;
+                    any |= inside;
+                }
+                here += 1;
+                broken_here += usize::from(any);
+            }
+        }
+        println!("{}: {here} bodies, {broken_here} with errors", tree.file_name().expect("a name").to_string_lossy());
+        for (error, of_body) in errors.iter().zip(of_bodies) {
+            let at = project.files.line_column(error.place);
+            let path = &project.files.get(error.place.file).path;
+            println!(
+                "    {}{path}:{}:{}: {}",
+                if of_body { "" } else { "(no body) " },
+                at.line,
+                at.column,
+                error.message
+            );
+        }
+        all += here;
+        broken += broken_here;
+    }
+    println!("all: {all} bodies, {broken} with errors");
+    assert!(broken * 1000 <= all * 5, "at least 99.5 % of the bodies are read");
 }

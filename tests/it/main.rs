@@ -6,6 +6,7 @@ mod cli;
 mod corpora;
 mod docs;
 mod evidence;
+mod fuzz;
 mod html;
 mod library;
 mod logic;

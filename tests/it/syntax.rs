@@ -3,4 +3,4 @@
 mod access;
 mod properties;
 mod recovery;
-mod zoo;
+pub(crate) mod zoo;

@@ -10,9 +10,12 @@ mod text;
 mod types;
 mod variables;
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
-use super::{Catalogue, FragmentId, Item, ItemBody, ItemId, Library, LibraryId, Source};
+use super::names::fold;
+use super::{Catalogue, FragmentId, Item, ItemBody, ItemId, ItemKind, Library, LibraryId, Source};
 use crate::diagnostic::Finding;
 use crate::syntax::{self, Entry, Parse};
 use crate::text::{Files, Fragment, Object, Place, Span, Unit, Vendor};
@@ -44,6 +47,7 @@ pub fn units<'a>(
     let parts: Vec<Lowering<'_>> = units.par_iter().map(part).collect();
     let mut lowered = Lowered::default();
     parts.into_iter().for_each(|part| join(&mut lowered, part));
+    adopt(&mut lowered.catalogue);
     lowered.catalogue.libraries = libraries;
     lowered
 }
@@ -74,6 +78,36 @@ fn join(lowered: &mut Lowered, part: Lowering<'_>) {
     }
     lowered.catalogue.sources.extend(part.sources);
     lowered.findings.extend(part.findings);
+}
+
+/// Gives each action that is declared as `Pou.Action` to its POU, which may stand in another file of the library.
+fn adopt(catalogue: &mut Catalogue) {
+    let alone = |item: &Item| item.kind == ItemKind::Action && item.parent.is_none() && item.name.contains('.');
+    let adopted: Vec<usize> = (0..catalogue.items.len()).filter(|i| alone(&catalogue.items[*i])).collect();
+    if adopted.is_empty() {
+        return;
+    }
+    let blocks = [ItemKind::FunctionBlock, ItemKind::Program, ItemKind::Function, ItemKind::Class];
+    let mut owners: BTreeMap<(LibraryId, String), Vec<usize>> = BTreeMap::new();
+    for (i, item) in catalogue.items.iter().enumerate() {
+        if item.parent.is_none() && blocks.contains(&item.kind) {
+            owners.entry((item.library, fold(&item.name))).or_default().push(i);
+        }
+    }
+    for i in adopted {
+        let item = &catalogue.items[i];
+        let Some((owner, name)) = item.name.rsplit_once('.') else { continue };
+        let (key, name, file) = ((item.library, fold(owner.trim())), name.trim().to_owned(), item.place.file);
+        let found = owners.get(&key).into_iter().flatten();
+        let Some(parent) = found.copied().min_by_key(|other| catalogue.items[*other].place.file != file) else {
+            continue;
+        };
+        catalogue.items[parent].children.push(ItemId(count(i)));
+        let item = &mut catalogue.items[i];
+        item.parent = Some(ItemId(count(parent)));
+        item.name = name;
+        item.folder.clear();
+    }
 }
 
 /// A unit being lowered; its numbers begin at 0.

@@ -43,7 +43,8 @@ impl Lowering<'_> {
     ) -> Option<ItemId> {
         match declaration {
             Declaration::Pou(pou) => {
-                let parent = if pou.kind() == PouKind::Action { self.owner(None) } else { None };
+                let alone = pou.kind() == PouKind::Action && !pou.name().is_some_and(|name| name.text().contains('.'));
+                let parent = if alone { self.owner(None) } else { None };
                 self.pou(tree, fragment, pou, parent)
             }
             Declaration::Property(property) => self.property(tree, fragment, property, None),

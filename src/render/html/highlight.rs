@@ -3,8 +3,10 @@
 //! The definition's scopes come down to the classes that listings use ([`RunClass`]), so that a signature, a fenced
 //! example and a listing look alike and one style sheet colours them all.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::str::FromStr;
+use std::sync::LazyLock;
 
 use syntect::parsing::{ParseState, Scope, ScopeStack, SyntaxDefinition, SyntaxSet, SyntaxSetBuilder};
 use syntect::util::LinesWithEndings;
@@ -13,6 +15,7 @@ use super::context::push_link;
 use super::error::Error;
 use super::escape;
 use crate::book::view::entity::RunClass;
+use crate::render::theme::Theme;
 
 const FILE: &str = "themes/syntax/structured-text.sublime-syntax";
 
@@ -39,21 +42,35 @@ pub(super) type Links = BTreeMap<String, String>;
 
 /// The highlighter of Structured Text.
 pub(super) struct Highlighter {
-    syntaxes: SyntaxSet,
+    syntaxes: Cow<'static, SyntaxSet>,
     classes: Vec<(Scope, RunClass)>,
+}
+
+/// The definition that the tool brings, compiled once: that takes longer than the pages of a small tree.
+static OWN: LazyLock<Result<SyntaxSet, String>> =
+    LazyLock::new(|| compile(Theme::default().text(FILE).unwrap_or_default()));
+
+fn compile(definition: &str) -> Result<SyntaxSet, String> {
+    let definition = SyntaxDefinition::load_from_str(definition, true, Some("Structured Text"))
+        .map_err(|error| error.to_string())?;
+    let mut builder = SyntaxSetBuilder::new();
+    builder.add(definition);
+    Ok(builder.build())
 }
 
 impl Highlighter {
     /// From the text of a syntax definition.
     pub(super) fn new(definition: &str) -> Result<Self, Error> {
         let error = |message: String| Error::Syntax { file: FILE.to_owned(), message };
-        let definition = SyntaxDefinition::load_from_str(definition, true, Some("Structured Text"))
-            .map_err(|e| error(e.to_string()))?;
-        let mut builder = SyntaxSetBuilder::new();
-        builder.add(definition);
+        let syntaxes = if Theme::default().text(FILE) == Some(definition) {
+            OWN.as_ref().map(Cow::Borrowed).map_err(Clone::clone)
+        } else {
+            compile(definition).map(Cow::Owned)
+        };
+        let syntaxes = syntaxes.map_err(error)?;
         let scope = |(prefix, class): &(&str, RunClass)| Scope::from_str(prefix).map(|scope| (scope, *class));
         let classes = CLASSES.iter().map(scope).collect::<Result<_, _>>().map_err(|e| error(format!("{e:?}")))?;
-        Ok(Self { syntaxes: builder.build(), classes })
+        Ok(Self { syntaxes, classes })
     }
 
     /// The name of the file that [`Self::new`] wants.

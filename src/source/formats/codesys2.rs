@@ -50,7 +50,7 @@ impl Format for Codesys2 {
         notes.extend(note_if_empty(&objects, "POU, type or variable list"));
         let nesting: BTreeSet<_> = objects.iter().filter_map(|object| property(object, "nested_comments")).collect();
         let nested_comments = if nesting.len() == 1 { nesting.first().map(|value| *value == "yes") } else { None };
-        Unwrapped { objects, vendor: Vendor::Codesys2, nested_comments, notes, project: None }
+        Unwrapped { objects, vendor: Vendor::Codesys2, nested_comments, notes, ..Unwrapped::default() }
     }
 }
 

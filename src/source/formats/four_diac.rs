@@ -4,6 +4,7 @@
 //! counterpart in IEC 61131-3; they are properties of the object and a list in its documentation. Algorithms
 //! are actions; a control chart or a network is kept as it stands.
 
+use super::keyword::{skip_trivia, word_at};
 use super::{Claim, Format, Input, Unwrapped, note_if_empty, xml_notes};
 use crate::source::fragment::FragmentBuilder;
 use crate::source::xml::{Element, Xml};
@@ -186,11 +187,21 @@ fn algorithm(kind: ObjectKind, element: Element<'_>) -> Object {
         object.declaration = Some(writer.out.finish(element.span().start));
     }
     object.body = match element.children().find(|child| matches!(child.name(), "ST" | "Other" | "FBD" | "LD")) {
+        Some(st) if st.name() == "ST" && is_declared(&source(st)) => {
+            object.declaration = Some(source(st));
+            Body::None
+        }
         Some(st) if st.name() == "ST" => Body::St(source(st)),
         Some(other) => Body::Other(Language::Unknown, other.raw()),
         None => Body::None,
     };
     object
+}
+
+/// Whether the text is `ALGORITHM … END_ALGORITHM` or `METHOD … END_METHOD`, as 4diac writes it since version 2.
+fn is_declared(text: &Fragment) -> bool {
+    let word = word_at(&text.text, skip_trivia(&text.text, 0));
+    word.eq_ignore_ascii_case("ALGORITHM") || word.eq_ignore_ascii_case("METHOD")
 }
 
 /// Old files keep the text in an attribute.

@@ -94,7 +94,7 @@ fn block(text: &str) -> Option<usize> {
 }
 
 /// The word, or the name in `"…"`, at `at`; empty if there is none.
-fn word_at(text: &str, at: usize) -> &str {
+pub(super) fn word_at(text: &str, at: usize) -> &str {
     let rest = &text[at..];
     if let Some(quoted) = rest.strip_prefix('"') {
         return quoted.find('"').map_or("", |end| &rest[..end + 2]);

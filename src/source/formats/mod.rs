@@ -9,12 +9,13 @@ mod codesys_export;
 mod codesys_text;
 mod four_diac;
 mod keyword;
-mod plain;
+pub(super) mod plain;
 mod plcopen;
 mod plcopen_declaration;
 mod siemens;
 mod twincat;
 mod xhtml;
+mod xml_tables;
 
 use std::sync::Arc;
 
@@ -26,6 +27,7 @@ use crate::text::{Object, Vendor};
 
 /// All formats.
 pub static ALL: &[&dyn Format] = &[
+    &xml_tables::XmlTables,
     &twincat::TwinCat,
     &plcopen::PlcOpen,
     &codesys_export::CodesysExport,
@@ -106,6 +108,8 @@ pub struct Unwrapped {
     pub nested_comments: Option<bool>,
     /// What is wrong with it, or was guessed.
     pub notes: Vec<Note>,
+    /// Whether the file holds test tables as well.
+    pub tables: bool,
     /// The project that the file is, if it is one by itself.
     pub(in crate::source) project: Option<Draft>,
 }

@@ -1,5 +1,6 @@
 //! Structured Text as a plain text file: one object, whose declaration is the whole text.
 
+use super::keyword::{skip_trivia, word_at};
 use super::{Claim, Format, Input, Setting, Unwrapped};
 use crate::source::paths;
 use crate::text::{Fragment, Object, ObjectKind, Span, Vendor};
@@ -14,17 +15,22 @@ impl Format for PlainText {
     }
 
     fn extensions(&self) -> &'static [&'static str] {
-        &["st", "iec"]
+        &["st", "iec", "il", "sfc"]
     }
 
-    fn claims(&self, _: &Input<'_>) -> Claim {
-        Claim::Likely
+    fn claims(&self, input: &Input<'_>) -> Claim {
+        if is_guarded_chart(input.text) { Claim::No } else { Claim::Likely }
     }
 
     fn unwrap(&self, input: &Input<'_>) -> Unwrapped {
         let vendor = if input.setting == Setting::SimaticAx { Vendor::SimaticAx } else { Vendor::Standard };
         Unwrapped { objects: vec![whole_text(input)], vendor, ..Unwrapped::default() }
     }
+}
+
+/// Whether the text is `SFC name … GOTO guard :: step -> step; … END_SFC`: charts that research tools hand to each other.
+pub(in crate::source) fn is_guarded_chart(text: &str) -> bool {
+    word_at(text, skip_trivia(text, 0)).eq_ignore_ascii_case("SFC") && text.trim_end().ends_with("END_SFC")
 }
 
 /// Structured Text of logi.CAD 3 and Neuron Power Engineer.

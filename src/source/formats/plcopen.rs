@@ -41,7 +41,7 @@ impl Format for PlcOpen {
         let product = xml.root().and_then(|root| root.child("fileHeader")).and_then(|head| head.value("productName"));
         let vendor =
             if product.is_some_and(|name| name.contains("TwinCAT")) { Vendor::TwinCat } else { Vendor::Codesys };
-        Unwrapped { objects, vendor, nested_comments: None, notes, project }
+        Unwrapped { objects, vendor, notes, project, ..Unwrapped::default() }
     }
 }
 

@@ -8,8 +8,8 @@ use super::super::parser::{Marker, Parser};
 use super::super::set::TokenSet;
 use super::names::{any_name, bump_name, keyword_may_be_name, name, nth_is_name, path};
 use super::{
-    DECLARATION_ENDS, STATEMENT_ENDS, VAR_KEYWORDS, configuration, error_token, il, sfc, siemens, statements, types,
-    variables,
+    DECLARATION_ENDS, STATEMENT_ENDS, VAR_KEYWORDS, configuration, error_token, events, il, sfc, siemens, statements,
+    types, variables,
 };
 
 /// Any number of declarations, sections of variables, and bodies.
@@ -55,7 +55,7 @@ pub(super) fn declaration_at(p: &Parser<'_>) -> Option<NodeKind> {
         TokenKind::Interface => NodeKind::Interface,
         TokenKind::Method => NodeKind::Method,
         TokenKind::Property | TokenKind::PropertyGet | TokenKind::PropertySet => NodeKind::Property,
-        TokenKind::Action => NodeKind::Action,
+        TokenKind::Action | TokenKind::Algorithm => NodeKind::Action,
         TokenKind::Actions => NodeKind::Actions,
         TokenKind::Transition if sfc::transition_follows(p) => return Some(NodeKind::Transition),
         TokenKind::Transition => NodeKind::Transition,
@@ -79,7 +79,7 @@ pub(super) fn declaration_at(p: &Parser<'_>) -> Option<NodeKind> {
 /// Whether the current token ends a body: a section of variables, a declaration, or what closes one.
 pub(super) fn at_boundary(p: &Parser<'_>) -> bool {
     let kind = p.current();
-    if kind == TokenKind::Eof {
+    if kind == TokenKind::Eof || events::at_section(p) {
         return true;
     }
     if !kind.is_keyword() {
@@ -130,10 +130,11 @@ const fn end_of(kind: NodeKind) -> TokenKind {
 /// A header, sections of variables, members and bodies, and the keyword that closes them.
 fn pou(p: &mut Parser<'_>, kind: NodeKind) {
     let marker = p.start();
-    let end = end_of(kind);
+    let end = if p.at(TokenKind::Algorithm) { TokenKind::EndAlgorithm } else { end_of(kind) };
     p.bump();
     if kind == NodeKind::Action {
         action_name(p);
+        algorithm_language(p);
         p.eat(TokenKind::Colon);
     } else {
         header(p);
@@ -170,6 +171,14 @@ fn declared_name(p: &mut Parser<'_>) {
         any_name(p);
     } else {
         name(p);
+    }
+}
+
+/// `IN ST` in the header of an algorithm.
+fn algorithm_language(p: &mut Parser<'_>) {
+    if p.nth_is_word(0, "IN") && nth_is_name(p, 1) && !p.begins_line() {
+        p.bump();
+        p.bump();
     }
 }
 
@@ -246,7 +255,7 @@ fn members(p: &mut Parser<'_>, kind: NodeKind, end: TokenKind) {
 
 /// One part of a declaration; takes nothing where the declaration has ended.
 fn member(p: &mut Parser<'_>, kind: NodeKind, end: TokenKind) {
-    if variables::opt_section(p) || siemens::opt_section(p) {
+    if variables::opt_section(p) || siemens::opt_section(p) || events::opt_section(p) {
         return;
     }
     if let Some(inner) = declaration_at(p) {

@@ -86,11 +86,10 @@ fn binary(p: &mut Parser<'_>, above: u8) -> Option<Done> {
             break;
         }
         let marker = p.precede(left);
-        p.bump();
-        if p.previous() == TokenKind::Equal && p.at(TokenKind::Equal) {
-            p.error_with_help("`==` is no operator", "write `=` to compare");
-            super::error_token(p);
+        if matches!(p.nth_text(0), "==" | "!=") {
+            p.foreign_operator();
         }
+        p.bump();
         let right = binary(p, rank);
         let height = right.map_or(0, Done::height).max(left.height());
         left = p.finish(marker, NodeKind::BinaryExpression, height);
@@ -220,6 +219,7 @@ fn primary(p: &mut Parser<'_>) -> Option<Done> {
         TokenKind::WString => Some(string_or_name(p)),
         kind if LITERALS.contains(kind) => Some(token(p, NodeKind::Literal)),
         TokenKind::Null if p.nth(1) != TokenKind::Dot => Some(token(p, NodeKind::Literal)),
+        TokenKind::TypePrefix if at_pointer(p) => Some(pointer(p)),
         TokenKind::TypePrefix => Some(typed(p)),
         TokenKind::Address => Some(address(p)),
         TokenKind::This => Some(token(p, NodeKind::ThisExpression)),
@@ -287,6 +287,34 @@ fn opt_peripheral(p: &mut Parser<'_>) {
         p.bump();
         p.bump();
     }
+}
+
+/// Whether `P#` stands here and an address behind it, and not a value of a type `P` (Siemens).
+fn at_pointer(p: &Parser<'_>) -> bool {
+    p.nth_is_word(0, "P#")
+        && (matches!(p.nth(1), TokenKind::Real | TokenKind::Integer | TokenKind::WString | TokenKind::Address)
+            || matches!(p.nth(2), TokenKind::Dot | TokenKind::Real))
+}
+
+/// `P#M10.0`, `P#DB1.DBX0.0 BYTE 10`, `P#E 0.0 WORD 4`: a place in memory, and how much of it.
+fn pointer(p: &mut Parser<'_>) -> Done {
+    let marker = p.start();
+    p.bump_as(TokenKind::Address);
+    let mut joined = true;
+    while joined && !p.at(TokenKind::Eof) {
+        joined = p.nth_is_joined(0)
+            && matches!(
+                p.nth(1),
+                TokenKind::Dot | TokenKind::Real | TokenKind::Integer | TokenKind::Ident | TokenKind::WString
+            );
+        p.bump();
+    }
+    p.eat(TokenKind::Real);
+    if is_name(p.current()) && p.nth(1) == TokenKind::Integer && !p.begins_line() {
+        p.bump();
+        p.bump();
+    }
+    p.complete(marker, NodeKind::AddressExpression)
 }
 
 /// `INT#-5`, `WORD#16#FF`, `STRING#'x'`, `Colour#Red`.

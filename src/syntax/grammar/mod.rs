@@ -7,6 +7,7 @@
 
 mod configuration;
 mod declarations;
+mod events;
 mod expressions;
 mod il;
 mod initializers;
@@ -117,6 +118,7 @@ const DECLARATION_ENDS: TokenSet = TokenSet::new(&[
     TokenKind::EndGet,
     TokenKind::EndSet,
     TokenKind::EndAction,
+    TokenKind::EndAlgorithm,
     TokenKind::EndActions,
     TokenKind::EndTransition,
     TokenKind::EndStep,

@@ -10,6 +10,9 @@ use crate::text::Span;
 /// Deeper nesting than this is refused, so that no input overflows the stack.
 const MAX_DEPTH: u32 = 64;
 
+/// More operators in one cell are refused: a row of them makes a tree as deep as it is long.
+const MAX_OPERATORS: u32 = 1000;
+
 /// Binds tighter than every operator between two operands.
 const UNARY: u8 = 10;
 
@@ -19,6 +22,7 @@ pub(super) struct Parser<'a> {
     tokens: Vec<Lexeme>,
     at: usize,
     depth: u32,
+    operators: u32,
     /// Whether a comparison may leave out its left side, which is then the column's own variable.
     pub(super) partial: bool,
 }
@@ -27,7 +31,7 @@ type Result<T> = std::result::Result<T, CellError>;
 
 impl<'a> Parser<'a> {
     pub(super) fn new(piece: &Piece<'_>, context: &'a Context) -> Result<Self> {
-        Ok(Self { context, tokens: lex(piece, context.relational)?, at: 0, depth: 0, partial: false })
+        Ok(Self { context, tokens: lex(piece, context.relational)?, at: 0, depth: 0, operators: 0, partial: false })
     }
 
     fn lexeme(&self) -> &Lexeme {
@@ -93,6 +97,12 @@ impl<'a> Parser<'a> {
         result
     }
 
+    fn count_operator(&mut self) -> Result<()> {
+        self.operators += 1;
+        let few = self.operators <= MAX_OPERATORS;
+        few.then_some(()).ok_or_else(|| CellError::new(self.span(), "this has too many operators"))
+    }
+
     /// A whole expression.
     pub(super) fn expression(&mut self) -> Result<Expr> {
         self.binary(0)
@@ -107,6 +117,7 @@ impl<'a> Parser<'a> {
                 if precedence < minimum {
                     break;
                 }
+                parser.count_operator()?;
                 parser.bump();
                 // Implication groups to the right, all others to the left.
                 let right = parser.binary(if op == BinaryOp::Implies { precedence } else { precedence + 1 })?;

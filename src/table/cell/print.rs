@@ -138,32 +138,29 @@ impl Printer {
                 self.path(path);
                 self.push(&format!("[-{count}]"));
             }
-            ExprKind::Unary(op, inner) => {
-                self.push(match op {
-                    UnaryOp::Minus => "-",
-                    UnaryOp::Plus => "+",
-                    UnaryOp::Not => "NOT ",
-                });
-                // Two signs in a row would read as something else.
-                let nested = matches!(inner.kind, ExprKind::Unary(UnaryOp::Minus | UnaryOp::Plus, _));
-                self.expr(inner, if nested { u8::MAX } else { unary_precedence() });
-            }
+            ExprKind::Unary(op, inner) => self.unary(*op, inner, minimum),
             ExprKind::Binary(op, left, right) => self.binary(*op, left, right, minimum),
             ExprKind::Call { name, args } => self.call(name, args),
             ExprKind::Guarded(arms) => self.guarded(arms),
         }
-        if matches!(expr.kind, ExprKind::Unary(..)) && minimum > unary_precedence() {
-            // Only reached for a sign under a sign; the parentheses were opened nowhere else.
-            self.wrap_last_sign(expr);
-        }
     }
 
-    /// Puts parentheses round the signed operand that was printed last.
-    fn wrap_last_sign(&mut self, expr: &Expr) {
-        let text = expression(expr, self.style);
-        let at = self.out.len() - text.len();
-        self.out.insert(at, '(');
-        self.out.push(')');
+    fn unary(&mut self, op: UnaryOp, inner: &Expr, minimum: u8) {
+        let parentheses = minimum > unary_precedence();
+        if parentheses {
+            self.push("(");
+        }
+        self.push(match op {
+            UnaryOp::Minus => "-",
+            UnaryOp::Plus => "+",
+            UnaryOp::Not => "NOT ",
+        });
+        // Two signs in a row would read as something else.
+        let nested = matches!(inner.kind, ExprKind::Unary(UnaryOp::Minus | UnaryOp::Plus, _));
+        self.expr(inner, if nested { u8::MAX } else { unary_precedence() });
+        if parentheses {
+            self.push(")");
+        }
     }
 
     fn binary(&mut self, op: BinaryOp, left: &Expr, right: &Expr, minimum: u8) {

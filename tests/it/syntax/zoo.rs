@@ -30,7 +30,7 @@ fn check(name: &str, text: &str, entry: Entry) {
 macro_rules! zoo {
     ($($name:ident: $entry:ident,)*) => {
         /// Every text of the zoo, with what it is read as.
-        pub(super) const ALL: &[(&str, &str, Entry)] = &[
+        pub(crate) const ALL: &[(&str, &str, Entry)] = &[
             $((stringify!($name), include_str!(concat!("../../zoo/", stringify!($name), ".st")), Entry::$entry),)*
         ];
 
@@ -67,7 +67,9 @@ zoo! {
     decl_method: Declaration,
     decl_property: Declaration,
     decl_with_body: Declaration,
+    event_blocks_broken: File,
     expr_chain: Expression,
+    foreign_operators_broken: File,
     il: File,
     il_bare: Body,
     names_like_keywords: File,
@@ -77,6 +79,7 @@ zoo! {
     pragmas: File,
     scl_blocks: File,
     scl_data: File,
+    scl_pointers: File,
     sfc: File,
     stray_characters: File,
     string_open: File,

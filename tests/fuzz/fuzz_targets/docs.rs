@@ -1,0 +1,5 @@
+//! See `targets::docs`.
+
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| rungbook_fuzz::targets::docs(data));

@@ -1,0 +1,5 @@
+//! See `targets::siemens`.
+
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| rungbook_fuzz::targets::siemens(data));
