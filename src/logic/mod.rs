@@ -12,3 +12,4 @@ pub mod simulate;
 pub mod system;
 pub mod term;
 pub mod value;
+pub mod write;
