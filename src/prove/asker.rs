@@ -32,7 +32,13 @@ impl Asker {
     }
 
     /// One question about what the assumptions and the extra clause rest on.
-    pub(crate) fn ask(&mut self, encoding: &Encoding, assumptions: &[Lit], extra: Option<&[Lit]>, budget: u64) -> Option<bool> {
+    pub(crate) fn ask(
+        &mut self,
+        encoding: &Encoding,
+        assumptions: &[Lit],
+        extra: Option<&[Lit]>,
+        budget: u64,
+    ) -> Option<bool> {
         let base = self.base.len();
         let about = assumptions.iter().chain(extra.unwrap_or(&[])).map(|l| l.node());
         encoding.close(about, &mut self.base, &mut self.marked);

@@ -5,8 +5,11 @@
 
 pub mod engine;
 pub mod ic3;
+pub mod decide;
+mod meeting;
 pub mod mine;
 pub mod options;
+pub mod product;
 pub mod simulate;
 pub mod verdict;
 

@@ -118,8 +118,7 @@ impl Problem {
             if clause.contains(&Lit::TRUE) {
                 continue;
             }
-            let mut facts: Vec<Fact> =
-                clause.iter().filter(|&&l| l != Lit::FALSE).map(|&l| fact(&place, l)).collect();
+            let mut facts: Vec<Fact> = clause.iter().filter(|&&l| l != Lit::FALSE).map(|&l| fact(&place, l)).collect();
             facts.sort_unstable();
             facts.dedup();
             out.push(facts);

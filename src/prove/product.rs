@@ -85,7 +85,8 @@ pub fn product(parts: &Parts<'_>) -> Result<Product, Vec<Reason>> {
     let globals = globals(parts, &mut system);
     let leaves = leaves(parts, &slots, &mut system, &globals);
     constrain(parts, &mut system, &leaves)?;
-    let mut rows = Rows { parts, leaves: &leaves, wrong: Vec::new(), known: BTreeMap::new(), meeting: Meeting::new(parts) };
+    let mut rows =
+        Rows { parts, leaves: &leaves, wrong: Vec::new(), known: BTreeMap::new(), meeting: Meeting::new(parts) };
     let game = encode_game(parts.automaton, &mut system.pool, &mut rows);
     let wrong = rows.wrong;
     if !wrong.is_empty() {

@@ -9,3 +9,4 @@ mod cnf;
 mod float;
 mod gates;
 pub mod invariant;
+pub mod replay;

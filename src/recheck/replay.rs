@@ -89,7 +89,8 @@ pub fn replay(subject: &Subject<'_>, environment: &Environment) -> Replay {
     let slots = slots(subject);
     let mut machine = Interpreter::with(subject.program, &subject.options);
     let mut game = Game::new(subject.automaton);
-    let mut run = Replay { cycles: Vec::new(), end: if *game.standing() == Standing::Ended { End::Ended } else { End::Open } };
+    let mut run =
+        Replay { cycles: Vec::new(), end: if *game.standing() == Standing::Ended { End::Ended } else { End::Open } };
     for inputs in &environment.inputs {
         if run.end != End::Open {
             break;

@@ -57,9 +57,7 @@ impl Ic3Search {
     fn found(&mut self, frame: usize) -> (Vec<Lit>, Vec<bool>) {
         let solver = &self.frames[frame].asker.solver;
         let signals = self.problem.signals.iter().enumerate();
-        let state = signals
-            .filter_map(|(i, s)| solver.value(s.now).map(|v| Lit::of(i as u32).invert_if(!v)))
-            .collect();
+        let state = signals.filter_map(|(i, s)| solver.value(s.now).map(|v| Lit::of(i as u32).invert_if(!v))).collect();
         let inputs = self.problem.model.inputs.iter().map(|&i| solver.value(i) == Some(true)).collect();
         (state, inputs)
     }

@@ -47,8 +47,9 @@ fn constant(width: usize, value: u64) -> Vec<Lit> {
 fn linear(aig: &mut Aig, word: &[Lit], (factor, offset): (u64, u64), width: usize) -> Vec<Lit> {
     let mut sum = constant(width, offset);
     for shift in (0..width.min(64)).filter(|s| factor >> s & 1 == 1) {
-        let row: Vec<Lit> =
-            (0..width).map(|i| if i >= shift { word.get(i - shift).copied().unwrap_or(Lit::FALSE) } else { Lit::FALSE }).collect();
+        let row: Vec<Lit> = (0..width)
+            .map(|i| if i >= shift { word.get(i - shift).copied().unwrap_or(Lit::FALSE) } else { Lit::FALSE })
+            .collect();
         sum = add(aig, &sum, &row);
     }
     sum

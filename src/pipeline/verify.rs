@@ -1,0 +1,269 @@
+//! From a test table to a verdict: bind, elaborate, translate, prove, check again.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::{Project, artefact};
+use crate::config::Settings;
+use crate::library::ItemId;
+use crate::logic::certificate::Certificate;
+use crate::machine::elaborate::{self, elaborate};
+use crate::machine::program::{Program, SlotId};
+use crate::machine::{interpret, translate};
+use crate::prove::decide::{Choice, Decision, decide};
+use crate::prove::engine::{Cancel, Progress};
+use crate::prove::product::{Parts, Product, product};
+use crate::prove::verdict::{FailedRow, Loss, Reason, Run, Verdict};
+use crate::recheck::invariant::{self, Rejection, Stop};
+use crate::recheck::replay::{End, Environment, Replay, Subject, replay};
+use crate::semantics::encode::Reals;
+use crate::table::automaton::{Automaton, NoAutomaton};
+use crate::table::bind::{BoundTable, bind};
+use crate::table::{AttachedTable, Table};
+
+/// A table with its verdict and what led to it.
+#[derive(Clone, Debug)]
+pub struct Verified {
+    /// Its index in [`Project::tables`].
+    pub table: usize,
+    /// The block.
+    pub unit: Option<ItemId>,
+    /// The verdict; it has been checked again.
+    pub verdict: Verdict,
+    /// The engine that decided it; empty if none did.
+    pub engine: &'static str,
+    /// How long it took, the second check included.
+    pub time: Duration,
+    /// The cycle time in nanoseconds.
+    pub cycle_time: u64,
+    /// What the verdict rests on besides the source.
+    pub assumptions: Vec<String>,
+    /// How many implicit obligations (faults of the machine) were proven along.
+    pub faults: usize,
+    /// The run of a violation.
+    pub replay: Option<Replay>,
+    /// The slots that the environment sets, in the order of a run's inputs.
+    pub input_slots: Vec<SlotId>,
+    /// The certificate as it is kept.
+    pub certificate: Option<serde_json::Value>,
+    /// The table as it was bound.
+    pub bound: Option<Arc<BoundTable>>,
+    /// The block as it was elaborated.
+    pub program: Option<Arc<Program>>,
+    /// An error of this tool: a verdict that the second check did not confirm, and that is none for this reason.
+    pub internal: Option<String>,
+}
+
+/// Hears how a table goes: its index, and what is tried.
+pub type Listener<'a> = dyn Fn(usize, Progress) + Sync + 'a;
+
+/// Decides one table.
+#[must_use]
+pub fn verify(project: &Project, settings: &Settings, table: usize, cancel: &Cancel, listener: &Listener<'_>) -> Verified {
+    let start = Instant::now();
+    let attached = &project.tables[table];
+    let cycle_time = cycle_time(&attached.table, settings);
+    let mut made = Verified {
+        table,
+        unit: attached.item,
+        verdict: Verdict::Unusable(Vec::new()),
+        engine: "",
+        time: Duration::ZERO,
+        cycle_time,
+        assumptions: Vec::new(),
+        faults: 0,
+        replay: None,
+        input_slots: Vec::new(),
+        certificate: None,
+        bound: None,
+        program: None,
+        internal: None,
+    };
+    match prepare(project, settings, attached, cycle_time) {
+        Ok(ready) => {
+            made.assumptions.clone_from(&ready.program.assumptions);
+            made.faults = ready.product.system.obligations.len() - 1;
+            made.bound = Some(ready.table.clone());
+            made.program = Some(ready.program.clone());
+            made.input_slots.clone_from(&ready.product.inputs);
+            judge(&ready, settings, &mut made, cancel, &|progress| listener(table, progress));
+        }
+        Err(verdict) => made.verdict = verdict,
+    }
+    made.time = start.elapsed();
+    made
+}
+
+/// A table and its block, ready to be decided.
+struct Ready {
+    program: Arc<Program>,
+    table: Arc<BoundTable>,
+    automaton: Automaton,
+    product: Product,
+    loop_limit: u64,
+}
+
+/// The table's cycle time, or the configured one, or 10 ms.
+fn cycle_time(table: &Table, settings: &Settings) -> u64 {
+    let own = table.options.cycle.map(|cycle| cycle.nanos).or(settings.tables.all.cycle);
+    own.and_then(|nanos| u64::try_from(nanos).ok()).filter(|nanos| *nanos > 0).unwrap_or(10_000_000)
+}
+
+fn reason(message: impl Into<String>, help: impl Into<String>) -> Reason {
+    Reason { message: message.into(), help: help.into(), place: None }
+}
+
+fn prepare(project: &Project, settings: &Settings, attached: &AttachedTable, cycle_time: u64) -> Result<Ready, Verdict> {
+    let (unit, table) = bound(project, attached)?;
+    let automaton = Automaton::build(&attached.table).map_err(|error| no_automaton(error, &attached.table))?;
+    let options = elaborate::Options {
+        cycle_time,
+        stubs: project.stubs.clone(),
+        ..elaborate::Options::default()
+    };
+    let program = elaborate(&project.catalogue, &project.names, unit, &options).map_err(|list| {
+        let reasons = list.into_iter().map(|one| Reason { message: one.message, help: one.help, place: one.place });
+        Verdict::Unsupported(reasons.collect())
+    })?;
+    let loop_limit = settings.verify.loop_limit;
+    let options = translate::Options { loop_limit, ..translate::Options::default() };
+    let translated = translate::translate(&program, &options).map_err(|unsupported| {
+        let message = format!("{} is not modelled", unsupported.what);
+        Verdict::Unsupported(vec![Reason { message, help: String::new(), place: unsupported.place }])
+    })?;
+    let parts =
+        Parts { program: &program, translated: &translated, table: &table, automaton: &automaton, reals: Reals::Ieee };
+    let product = product(&parts).map_err(Verdict::Unsupported)?;
+    Ok(Ready { program: Arc::new(program), table: Arc::new(table), automaton, product, loop_limit })
+}
+
+/// The table bound to its block, if it can be.
+fn bound(project: &Project, attached: &AttachedTable) -> Result<(ItemId, BoundTable), Verdict> {
+    let Some(unit) = attached.item else {
+        let help = "name the file after its block, or write `for BLOCK` in the table's heading";
+        return Err(Verdict::Unusable(vec![reason("the table belongs to no block", help)]));
+    };
+    if attached.table.has_errors() {
+        let errors = attached.errors.iter();
+        let reasons =
+            errors.map(|error| Reason { message: error.message.clone(), help: String::new(), place: Some(error.place) });
+        return Err(Verdict::Unusable(reasons.collect()));
+    }
+    let (table, findings) = bind(&attached.table, &project.catalogue, &project.names, unit);
+    if table.errors > 0 {
+        let errors = findings.iter().filter(|finding| finding.severity == crate::diagnostic::Severity::Error);
+        let reasons = errors.map(|finding| Reason {
+            message: finding.message.clone(),
+            help: finding.help.clone().unwrap_or_default(),
+            place: Some(finding.place),
+        });
+        return Err(Verdict::Unusable(reasons.collect()));
+    }
+    if !table.unsupported.is_empty() {
+        let reasons = table.unsupported.iter().map(|unsupported| Reason {
+            message: unsupported.what.clone(),
+            help: String::new(),
+            place: Some(unsupported.place),
+        });
+        return Err(Verdict::Unsupported(reasons.collect()));
+    }
+    Ok((unit, table))
+}
+
+fn no_automaton(error: NoAutomaton, table: &Table) -> Verdict {
+    let at = |mut reason: Reason| {
+        reason.place = Some(table.name_place);
+        vec![reason]
+    };
+    match error {
+        NoAutomaton::Errors => Verdict::Unusable(at(reason("the table has errors", ""))),
+        NoAutomaton::NoCycleTime => {
+            let help = "write `(cycle 10ms)` in its heading, or `cycle = \"10ms\"` under `[tables]`";
+            Verdict::Unusable(at(reason("durations are times, and the cycle time is not known", help)))
+        }
+        NoAutomaton::Unsupported => {
+            let help = "split it into tables that specify one block and are read from top to bottom";
+            Verdict::Unsupported(at(reason("the table compares several runs, or jumps", help)))
+        }
+        NoAutomaton::TooLarge => {
+            let help = "give nested blocks fewer ways to follow each other";
+            Verdict::Unsupported(at(reason("its rows can follow each other in too many ways", help)))
+        }
+    }
+}
+
+/// Decides, and checks the answer again.
+fn judge(
+    ready: &Ready,
+    settings: &Settings,
+    made: &mut Verified,
+    cancel: &Cancel,
+    listener: &(dyn Fn(Progress) + Sync),
+) {
+    if ready.automaton.may_be_empty {
+        made.verdict = Verdict::Verified(Certificate { k: 1, ..Certificate::default() });
+        made.engine = "trivial";
+        confirm_certificate(ready, settings, made);
+        return;
+    }
+    let decided = decide(&ready.product, &settings.verify.options, cancel, listener);
+    made.engine = decided.engine;
+    match decided.decision {
+        Decision::Proved(certificate) => {
+            made.verdict = Verdict::Verified(certificate);
+            confirm_certificate(ready, settings, made);
+        }
+        Decision::Violated(choice) => confirm_run(ready, &choice, made),
+        Decision::Bounded(cycles) => made.verdict = Verdict::Bounded(cycles),
+    }
+}
+
+/// Checks a certificate by the room that shares nothing with the engines.
+fn confirm_certificate(ready: &Ready, settings: &Settings, made: &mut Verified) {
+    let Verdict::Verified(certificate) = &made.verdict else { return };
+    // The second check gets as much time again, and half a minute at least.
+    let deadline = Instant::now() + settings.verify.options.timeout.max(Duration::from_secs(30));
+    let stop: Stop = Arc::new(move || Instant::now() >= deadline);
+    if let Err(rejection) = invariant::check(&ready.product.system, certificate, &stop) {
+        made.internal = Some(match rejection {
+            Rejection::OutOfTime => "the certificate could not be checked again in time".to_owned(),
+            other => format!("the certificate of `{}` was rejected: {other:?}", made.engine),
+        });
+        made.verdict = Verdict::Bounded(0);
+        return;
+    }
+    made.certificate = Some(artefact::certificate(&ready.product.system, certificate));
+}
+
+/// Replays a run on the interpreter and on the game.
+fn confirm_run(ready: &Ready, choice: &Choice, made: &mut Verified) {
+    let environment = Environment {
+        globals: choice.globals.clone(),
+        slots: ready.product.inputs.clone(),
+        inputs: choice.inputs.clone(),
+    };
+    let subject = Subject {
+        program: &ready.program,
+        options: interpret::Options { loop_limit: ready.loop_limit },
+        table: &ready.table,
+        automaton: &ready.automaton,
+    };
+    let replay = replay(&subject, &environment);
+    let loss = match &replay.end {
+        End::Lost(rows) => Loss::Table(rows.iter().map(failed).collect()),
+        End::Fault(fault) => Loss::Fault { fault: fault.fault, place: fault.place },
+        other => {
+            made.internal = Some(format!("the run of `{}` does not lose when it is replayed: {other:?}", made.engine));
+            made.verdict = Verdict::Bounded(0);
+            return;
+        }
+    };
+    let mut inputs = environment.inputs;
+    inputs.truncate(replay.cycles.len());
+    made.verdict = Verdict::Violated(Box::new(Run { globals: environment.globals, inputs, loss }));
+    made.replay = Some(replay);
+}
+
+fn failed(row: &crate::recheck::replay::Failed) -> FailedRow {
+    FailedRow { row: row.row, first: row.first, columns: row.columns.clone() }
+}
