@@ -5,7 +5,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::logic::aig::{Lit, Model};
+use crate::logic::aig::{Lit, Model, Trace};
+use crate::logic::sat::Stop;
 
 /// A literal of a proof: what it is about, and whether it is to be true. Numbers below the count of latches are latches
 /// of the model, in its order; the ones above are the proof's gates.
@@ -17,7 +18,7 @@ pub type Fact = (usize, bool);
 /// constraints, it holds in the next state; where it holds, and the constraints, the bad literal is false. For `k > 1`
 /// the invariant is inductive in the same sense, no run of `k` cycles that begins in a first state is bad, and no run of
 /// `k + 1` cycles in which the invariant holds, the first `k` of them not bad, is bad in its last; with `simple_path`
-/// only runs without a repeated state are looked at there.
+/// only runs whose first `k` states differ are looked at there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proof {
     /// Conjunctions that clauses may speak of; operands are latches or earlier gates.
@@ -28,15 +29,6 @@ pub struct Proof {
     pub k: usize,
     /// Whether states are assumed to differ along the runs of the induction's step.
     pub simple_path: bool,
-}
-
-/// A run that ends in a bad cycle.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Trace {
-    /// Every latch in the first cycle.
-    pub first: Vec<bool>,
-    /// Every input in every cycle, from the first to the bad one.
-    pub inputs: Vec<Vec<bool>>,
 }
 
 /// Why an engine stopped without an answer.
@@ -57,7 +49,7 @@ pub enum Reason {
 pub enum Answer {
     /// No run is bad, of whatever length.
     Proved(Proof),
-    /// This run is.
+    /// This run is; its last cycle is bad.
     Violated(Trace),
     /// No run of at most so many cycles is bad, nothing is known beyond.
     Bounded {
@@ -128,6 +120,11 @@ impl Budget {
     #[must_use]
     pub fn seconds(seconds: f64) -> Self {
         Self { deadline: Some(Instant::now() + Duration::from_secs_f64(seconds)), ..Self::default() }
+    }
+
+    /// The same for a solver.
+    pub(crate) fn stop(&self) -> Stop {
+        self.deadline.map_or_else(Stop::default, Stop::at).or_flag(Arc::clone(&self.cancel.0))
     }
 
     /// Why to stop now, if so.

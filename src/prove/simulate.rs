@@ -1,7 +1,6 @@
 //! Running a model on values: 64 runs at once, one in each bit of a word.
 
-use super::engine::Trace;
-use crate::logic::aig::{Gate, Lit, Model};
+use crate::logic::aig::{Lit, Model, Trace, word};
 
 /// The values of every node in one cycle of 64 runs.
 pub(crate) struct Simulator<'m> {
@@ -26,11 +25,7 @@ impl<'m> Simulator<'m> {
         for (index, lit) in self.model.inputs.iter().enumerate() {
             self.values[lit.node() as usize] = input(index);
         }
-        for node in 0..self.model.aig.len() as u32 {
-            if let Gate::And(a, b) = self.model.aig.gate(node) {
-                self.values[node as usize] = self.value(a) & self.value(b);
-            }
-        }
+        self.model.aig.propagate(&mut self.values);
     }
 
     /// Puts the next values into the latches.
@@ -40,35 +35,18 @@ impl<'m> Simulator<'m> {
     }
 
     pub(crate) fn value(&self, lit: Lit) -> u64 {
-        let value = self.values[lit.node() as usize];
-        if lit.inverted() { !value } else { value }
+        word(&self.values, lit)
     }
 }
 
 /// Whether the trace is a run of the model, and bad in its last cycle.
 #[must_use]
 pub fn is_violation(model: &Model, property: usize, trace: &Trace) -> bool {
-    let spread = |value: bool| if value { u64::MAX } else { 0 };
-    let fits = trace.first.len() == model.latches.len()
+    let fits = trace.latches.len() == model.latches.len()
         && trace.inputs.iter().all(|i| i.len() == model.inputs.len())
-        && model.latches.iter().zip(&trace.first).all(|(l, &v)| l.initial.is_none_or(|i| i == v));
-    if !fits {
-        return false;
-    }
-    let mut run = Simulator::new(model);
-    run.start(|index| spread(trace.first[index]));
-    let mut bad = false;
-    for (cycle, inputs) in trace.inputs.iter().enumerate() {
-        if cycle > 0 {
-            run.step();
-        }
-        run.evaluate(|index| spread(inputs[index]));
-        if model.constraints.iter().any(|&c| run.value(c) == 0) {
-            return false;
-        }
-        bad = run.value(model.bad[property]) != 0;
-    }
-    bad
+        && model.latches.iter().zip(&trace.latches).all(|(l, &v)| l.initial.is_none_or(|i| i == v));
+    let run = model.simulate(trace);
+    fits && run.iter().all(|s| s.constrained) && run.last().is_some_and(|s| s.bad[property])
 }
 
 /// Pseudo-random numbers (xorshift, Marsaglia 2003): the same ones each time.

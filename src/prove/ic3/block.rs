@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::super::engine::Trace;
 use super::frames::Cube;
 use super::{Ic3Search, Stop};
+use crate::logic::aig::Trace;
 
 /// A cube from which `inputs` lead to the cube of `next`, or to a bad cycle.
 struct Obligation {

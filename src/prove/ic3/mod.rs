@@ -18,9 +18,9 @@ mod query;
 use super::asker::Asker;
 use super::cdcl::Solver;
 use super::encode::Encoding;
-use super::engine::{Answer, Budget, Engine, Progress, Reason, Search, Trace, bounded, drive};
+use super::engine::{Answer, Budget, Engine, Progress, Reason, Search, bounded, drive};
 use super::problem::Problem;
-use crate::logic::aig::{Lit, Model};
+use crate::logic::aig::{Lit, Model, Trace};
 use block::Queue;
 use frames::{Cube, Frame};
 
@@ -169,6 +169,9 @@ impl Ic3Search {
         let solver: &Solver = &self.first.solver;
         let first = self.problem.model.latches.iter().map(|l| solver.value(l.lit) == Some(true)).collect();
         Ok(Trace { first, inputs: self.queue.inputs_from(start) })
+        let latches =
+            self.problem.model.latches.iter().map(|l| solver.value(l.lit) == Some(true)).collect();
+        Ok(Trace { latches, inputs: self.queue.inputs_from(start) })
     }
 }
 

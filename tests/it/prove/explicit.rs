@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use rungbook::logic::aig::{Gate, Lit, Model};
-use rungbook::prove::engine::{Proof, Trace};
+use rungbook::logic::aig::{Gate, Lit, Model, Trace};
+use rungbook::prove::engine::Proof;
 
 /// Values of all nodes, for a state and inputs given as bits.
 pub(crate) fn nodes(model: &Model, state: u32, input: u32) -> Vec<bool> {
@@ -116,7 +116,7 @@ fn walk(model: &Model, proof: &Proof, path: &mut Vec<u32>) {
     for step in steps(model, last).filter(|s| s.allowed) {
         if path.len() == proof.k + 1 {
             assert!(!step.bad, "the induction's step fails");
-        } else if !step.bad && !(proof.simple_path && path.contains(&step.to)) {
+        } else if !step.bad && !(proof.simple_path && path.len() < proof.k && path.contains(&step.to)) {
             path.push(step.to);
             walk(model, proof, path);
             path.pop();
@@ -127,7 +127,7 @@ fn walk(model: &Model, proof: &Proof, path: &mut Vec<u32>) {
 /// Panics unless the trace is a run that is bad in its last cycle.
 pub(crate) fn check_trace(model: &Model, trace: &Trace) {
     let bits = |values: &[bool]| values.iter().enumerate().map(|(i, &v)| u32::from(v) << i).sum::<u32>();
-    let mut state = bits(&trace.first);
+    let mut state = bits(&trace.latches);
     assert!(is_first(model, state));
     let mut bad = false;
     for inputs in &trace.inputs {

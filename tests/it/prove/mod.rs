@@ -3,7 +3,8 @@
 pub(crate) mod aiger;
 mod explicit;
 pub(crate) mod families;
-mod random;
+pub(crate) mod minmax;
+pub(crate) mod random;
 pub(crate) mod words;
 
 use rungbook::prove::engine::{Answer, Budget, Engine};

@@ -1,0 +1,148 @@
+//! Bounded model checking: is there a bad run of so many cycles? One cycle more each time, in one solver.
+//!
+//! Biere, Cimatti, Clarke and Zhu, "Symbolic model checking without BDDs" (TACAS 1999), incremental as by Eén and Sörensson
+//! ("Temporal induction by incremental SAT solving", BMC 2003), on an unrolled graph with structural hashing, so that what
+//! follows from the first state is folded away. Left out: completeness thresholds.
+
+use super::engine::{Answer, Budget, Engine, Progress, Reason, Search, bounded, drive};
+use super::problem::Problem;
+use super::unroll::Unrolling;
+use crate::logic::aig::{Lit, Model, Trace};
+use crate::logic::sat::Solver;
+use crate::logic::sat::cadi::Cadical;
+use crate::logic::sat::encode::Encoder;
+
+/// The engine.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Bmc;
+
+impl Engine for Bmc {
+    fn name(&self) -> &'static str {
+        "bmc"
+    }
+
+    fn run(&self, model: &Model, property: usize, budget: &Budget, progress: &dyn Fn(Progress)) -> Answer {
+        drive(&mut BmcSearch::new(Problem::new(model, property)), budget, progress)
+    }
+}
+
+/// Ticks for a conflict of the solver, for a question, and for each node of the graph at each question.
+const CONFLICT: u64 = 3_000;
+const QUESTION: u64 = 20_000;
+const NODE: u64 = 4;
+
+/// A solver with an unrolled graph, asked with limits that count.
+pub(crate) struct Unrolled {
+    pub(crate) graph: Unrolling,
+    solver: Cadical,
+    encoder: Encoder,
+}
+
+/// What came of a question.
+pub(crate) enum Reply {
+    Yes,
+    No,
+    Stopped(Reason),
+    Pause,
+}
+
+impl Unrolled {
+    pub(crate) fn new(model: &Model, from_first: bool) -> Self {
+        let (graph, solver) = (Unrolling::new(model, from_first), Cadical::default());
+        Self { graph, solver, encoder: Encoder::default() }
+    }
+
+    pub(crate) fn require(&mut self, lits: &[Lit]) {
+        let clause: Vec<i32> =
+            lits.iter().map(|&l| self.encoder.encode(&self.graph.aig, l, &mut self.solver)).collect();
+        self.solver.add_clause(&clause);
+    }
+
+    /// Whether `lit` can be true, asked with more and more work until `ticks` are gone.
+    pub(crate) fn ask(&mut self, lit: Lit, ticks: &mut u64, budget: &Budget) -> Reply {
+        let assumption = self.encoder.encode(&self.graph.aig, lit, &mut self.solver);
+        *ticks = ticks.saturating_sub(QUESTION + NODE * self.graph.aig.len() as u64);
+        self.solver.set_stop(budget.stop());
+        let mut conflicts = 100;
+        loop {
+            self.solver.set_conflicts(Some(conflicts));
+            match self.solver.solve(&[assumption]) {
+                Some(true) => return Reply::Yes,
+                Some(false) => return Reply::No,
+                None => {}
+            }
+            if let Some(reason) = budget.exhausted() {
+                return Reply::Stopped(reason);
+            }
+            *ticks = ticks.saturating_sub(u64::from(conflicts) * CONFLICT);
+            if *ticks == 0 {
+                return Reply::Pause;
+            }
+            conflicts = conflicts.saturating_mul(2);
+        }
+    }
+
+    /// The value of a literal in the run that was found; false where it did not matter.
+    pub(crate) fn value(&self, lit: Lit) -> bool {
+        if lit.node() == 0 {
+            return lit.inverted();
+        }
+        self.encoder.known(lit).is_some_and(|l| self.solver.value(l))
+    }
+}
+
+/// The state of a search.
+pub(crate) struct BmcSearch {
+    problem: Problem,
+    unrolled: Unrolled,
+    depth: usize,
+}
+
+impl BmcSearch {
+    pub(crate) fn new(problem: Problem) -> Self {
+        Self { unrolled: Unrolled::new(&problem.model, true), depth: 0, problem }
+    }
+
+    fn trace(&mut self) -> Trace {
+        let model = &self.problem.model;
+        let mut read = |lit: Lit, cycle: usize| {
+            let at = self.unrolled.graph.at(lit, cycle);
+            self.unrolled.value(at)
+        };
+        let latches = model.latches.iter().map(|l| read(l.lit, 0)).collect();
+        let inputs = (0..=self.depth).map(|c| model.inputs.iter().map(|&i| read(i, c)).collect()).collect();
+        Trace { latches, inputs }
+    }
+}
+
+impl Search for BmcSearch {
+    fn advance(&mut self, ticks: u64, budget: &Budget, progress: &dyn Fn(Progress)) -> Option<Answer> {
+        let mut left = ticks;
+        while left > 0 {
+            if let Some(reason) = budget.exhausted_with(self.unrolled.graph.bytes() * 4) {
+                return Some(bounded(self.depth, reason));
+            }
+            for index in 0..self.problem.model.constraints.len() {
+                let holds = self.unrolled.graph.at(self.problem.model.constraints[index], self.depth);
+                self.unrolled.require(&[holds]);
+            }
+            let bad = self.unrolled.graph.at(self.problem.bad, self.depth);
+            left = left.saturating_sub(QUESTION / 10);
+            if bad != Lit::FALSE {
+                match self.unrolled.ask(bad, &mut left, budget) {
+                    Reply::Yes => return Some(Answer::Violated(self.trace())),
+                    Reply::No => self.unrolled.require(&[!bad]),
+                    Reply::Stopped(reason) => return Some(bounded(self.depth, reason)),
+                    Reply::Pause => return None,
+                }
+            }
+            self.depth += 1;
+            progress(Progress { engine: "bmc", depth: self.depth, clauses: 0 });
+        }
+        None
+    }
+
+    fn depth(&self) -> usize {
+        self.depth
+    }
+}

@@ -1,0 +1,163 @@
+//! All engines on one property.
+//!
+//! With one job the order is fixed and shares are counted in work, not in time, so that the same model gives the same
+//! answer with the same evidence: a short search for a violation, mining, then IC3 and induction (which searches for
+//! violations on the side) in turns that grow. With two jobs induction runs beside the rest and the first answer counts:
+//! its kind is the same, its evidence may differ.
+
+use super::bmc::BmcSearch;
+use super::engine::{Answer, Budget, Engine, Hints, Progress, Reason, Search, bounded, drive};
+use super::ic3::Ic3Search;
+use super::induction::InductionSearch;
+use super::mine::{Mined, mine};
+use super::problem::Problem;
+use super::reduce::Reduced;
+use super::simulate::is_violation;
+use crate::logic::aig::Model;
+
+/// What to do.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// How many threads, at most two of which are of use.
+    pub jobs: usize,
+    /// What is known of the model.
+    pub hints: Hints,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { jobs: 1, hints: Hints::default() }
+    }
+}
+
+/// An answer, and who gave it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// The answer.
+    pub answer: Answer,
+    /// The engine.
+    pub engine: &'static str,
+}
+
+/// Somebody who is told how it goes, from any thread.
+pub type Listener<'a> = &'a (dyn Fn(Progress) + Sync);
+
+/// Work for the first search for violations, and for the first turn of each engine.
+const LOOK: u64 = 4_000_000;
+const TURN: u64 = 20_000_000;
+
+/// Decides the property.
+#[must_use]
+pub fn decide(model: &Model, property: usize, options: &Options, budget: &Budget, listener: Listener<'_>) -> Outcome {
+    let reduced = Reduced::new(model, property);
+    let problem = Problem::new(&reduced.model, 0);
+    let hints = Hints { words: reduced.words(&options.hints.words) };
+    let outcome = if options.jobs > 1 {
+        side_by_side(problem, &hints, budget, listener)
+    } else {
+        in_turns(problem, &hints, budget, listener)
+    };
+    let answer = reduced.lift(model, outcome.answer);
+    match &answer {
+        Answer::Violated(trace) if !is_violation(model, property, trace) => {
+            Outcome { answer: Answer::GaveUp(Reason::Incomplete), engine: outcome.engine }
+        }
+        _ => Outcome { answer, engine: outcome.engine },
+    }
+}
+
+/// The problem with what mining finds, or its answer.
+fn enrich(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'_>) -> Result<Problem, Outcome> {
+    listener(Progress { engine: "mine", depth: 1, clauses: 0 });
+    match mine(problem.clone(), hints, budget) {
+        Ok(Mined::Proved(answer)) => Err(Outcome { answer, engine: "mine" }),
+        Ok(Mined::Enriched(problem)) => Ok(problem),
+        Err(_) => Ok(problem),
+    }
+}
+
+fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'_>) -> Outcome {
+    let mut look = BmcSearch::new(problem.clone());
+    if let Some(answer) = look.advance(LOOK, budget, listener) {
+        return Outcome { answer, engine: "bmc" };
+    }
+    let safe = look.depth();
+    drop(look);
+    let problem = match enrich(problem, hints, budget, listener) {
+        Ok(problem) => problem,
+        Err(outcome) => return outcome,
+    };
+    let mut ic3 = Ic3Search::new(problem.clone());
+    let mut induction = InductionSearch::new(problem);
+    let mut turn = TURN;
+    loop {
+        let searches: [(&mut dyn Search, &'static str); 2] = [(&mut ic3, "ic3"), (&mut induction, "induction")];
+        for (search, engine) in searches {
+            match search.advance(turn, budget, listener) {
+                Some(answer) if answer.is_final() => return Outcome { answer, engine },
+                _ => {}
+            }
+        }
+        let deepest = safe.max(ic3.depth()).max(induction.depth());
+        if let Some(reason) = budget.exhausted() {
+            return Outcome { answer: bounded(deepest, reason), engine: "portfolio" };
+        }
+        turn = turn.saturating_add(turn / 4);
+    }
+}
+
+fn side_by_side(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'_>) -> Outcome {
+    let other = problem.clone();
+    let (one, two) = std::thread::scope(|scope| {
+        let beside = scope.spawn(|| {
+            let answer = drive(&mut InductionSearch::new(other), budget, listener);
+            finish(Outcome { answer, engine: "induction" }, budget)
+        });
+        let own = match enrich(problem, hints, budget, listener) {
+            Ok(problem) => {
+                let answer = drive(&mut Ic3Search::new(problem), budget, listener);
+                Outcome { answer, engine: "ic3" }
+            }
+            Err(outcome) => outcome,
+        };
+        (finish(own, budget), beside.join())
+    });
+    let two = two.unwrap_or(Outcome { answer: Answer::GaveUp(Reason::Incomplete), engine: "induction" });
+    better(one, two)
+}
+
+/// Stops the others where the question is settled.
+fn finish(outcome: Outcome, budget: &Budget) -> Outcome {
+    if outcome.answer.is_final() {
+        budget.cancel.cancel();
+    }
+    outcome
+}
+
+fn better(one: Outcome, two: Outcome) -> Outcome {
+    let rank = |outcome: &Outcome| match &outcome.answer {
+        Answer::Proved(_) | Answer::Violated(_) => usize::MAX,
+        Answer::Bounded { depth, .. } => *depth,
+        Answer::GaveUp(_) => 0,
+    };
+    if rank(&one) >= rank(&two) { one } else { two }
+}
+
+/// The portfolio as an engine, in turns.
+#[derive(Clone, Debug, Default)]
+pub struct Portfolio {
+    /// What is known of the model.
+    pub hints: Hints,
+}
+
+impl Engine for Portfolio {
+    fn name(&self) -> &'static str {
+        "portfolio"
+    }
+
+    fn run(&self, model: &Model, property: usize, budget: &Budget, progress: &dyn Fn(Progress)) -> Answer {
+        progress(Progress { engine: "portfolio", depth: 0, clauses: 0 });
+        let options = Options { jobs: 1, hints: self.hints.clone() };
+        decide(model, property, &options, budget, &|_| ()).answer
+    }
+}
