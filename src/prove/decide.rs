@@ -41,12 +41,7 @@ pub struct Decided {
 
 /// Decides the obligations of `product`, within the options' time and memory.
 #[must_use]
-pub fn decide(
-    product: &Product,
-    options: &Options,
-    cancel: &Cancel,
-    listener: &(dyn Fn(Progress) + Sync),
-) -> Decided {
+pub fn decide(product: &Product, options: &Options, cancel: &Cancel, listener: &(dyn Fn(Progress) + Sync)) -> Decided {
     let budget = Budget {
         deadline: Instant::now().checked_add(options.timeout),
         memory: usize::try_from(options.memory.saturating_mul(1 << 20)).unwrap_or(usize::MAX),
@@ -59,7 +54,6 @@ pub fn decide(
     let decision = match outcome.answer {
         Answer::Proved(proof) => Decision::Proved(certificate(&blasted, proof)),
         Answer::Violated(trace) => {
-            let trace = crate::logic::aig::Trace { latches: trace.first, inputs: trace.inputs };
             let stimulus = blasted.stimulus(&trace);
             let globals = product.globals.iter().map(|state| stimulus.free[*state]).collect();
             Decision::Violated(Choice { globals, inputs: stimulus.inputs })

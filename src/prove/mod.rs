@@ -4,17 +4,15 @@
 //! run. None knows another; the portfolio shares the time over them.
 
 pub mod bmc;
+pub mod decide;
 pub mod engine;
 pub mod ic3;
-pub mod decide;
+pub mod induction;
 mod meeting;
 pub mod mine;
 pub mod options;
-pub mod product;
-pub mod induction;
-pub mod mine;
-pub mod options;
 pub mod portfolio;
+pub mod product;
 pub mod simulate;
 pub mod verdict;
 

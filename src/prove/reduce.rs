@@ -133,8 +133,7 @@ impl Reduced {
     fn proof(&self, model: &Model, proof: Proof) -> Proof {
         let (old, new) = (self.latches.len(), model.latches.len());
         let fact = |(f, v): Fact| (if f < old { self.latches[f] } else { f - old + new }, v);
-        let mut clauses: Vec<Vec<Fact>> =
-            proof.clauses.iter().map(|c| c.iter().map(|&f| fact(f)).collect()).collect();
+        let mut clauses: Vec<Vec<Fact>> = proof.clauses.iter().map(|c| c.iter().map(|&f| fact(f)).collect()).collect();
         clauses.extend(self.constants.iter().map(|&c| vec![c]));
         clauses.iter_mut().for_each(|c| c.sort_unstable());
         clauses.sort();

@@ -167,10 +167,7 @@ impl Ic3Search {
         let assumptions: Vec<Lit> = cube.lits().iter().map(|&l| now(&self.problem, l)).collect();
         self.ask_first(&assumptions)?;
         let solver: &Solver = &self.first.solver;
-        let first = self.problem.model.latches.iter().map(|l| solver.value(l.lit) == Some(true)).collect();
-        Ok(Trace { first, inputs: self.queue.inputs_from(start) })
-        let latches =
-            self.problem.model.latches.iter().map(|l| solver.value(l.lit) == Some(true)).collect();
+        let latches = self.problem.model.latches.iter().map(|l| solver.value(l.lit) == Some(true)).collect();
         Ok(Trace { latches, inputs: self.queue.inputs_from(start) })
     }
 }
