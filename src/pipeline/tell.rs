@@ -60,9 +60,10 @@ impl Teller<'_> {
             let kind = self.kind(global.scalar, global.enumeration);
             json!({"name": global.name, "bits": bits, "value": literal(&kind, *bits)})
         });
-        let variables = self.bound.variables.iter().map(|variable| {
-            json!({"name": variable.path, "input": variable.role == crate::table::bind::Role::Input})
-        });
+        let variables =
+            self.bound.variables.iter().map(
+                |variable| json!({"name": variable.path, "input": variable.role == crate::table::bind::Role::Input}),
+            );
         json!({
             "format": RUN,
             "cycle_ns": self.verified.cycle_time,

@@ -60,7 +60,13 @@ pub type Listener<'a> = dyn Fn(usize, Progress) + Sync + 'a;
 
 /// Decides one table.
 #[must_use]
-pub fn verify(project: &Project, settings: &Settings, table: usize, cancel: &Cancel, listener: &Listener<'_>) -> Verified {
+pub fn verify(
+    project: &Project,
+    settings: &Settings,
+    table: usize,
+    cancel: &Cancel,
+    listener: &Listener<'_>,
+) -> Verified {
     let start = Instant::now();
     let attached = &project.tables[table];
     let cycle_time = cycle_time(&attached.table, project);
@@ -163,8 +169,11 @@ fn bound(project: &Project, attached: &AttachedTable) -> Result<(ItemId, BoundTa
     };
     if attached.table.has_errors() {
         let errors = attached.errors.iter();
-        let reasons =
-            errors.map(|error| Reason { message: error.message.clone(), help: String::new(), place: Some(error.place) });
+        let reasons = errors.map(|error| Reason {
+            message: error.message.clone(),
+            help: String::new(),
+            place: Some(error.place),
+        });
         return Err(Verdict::Unusable(reasons.collect()));
     }
     let (table, findings) = bind(&attached.table, &project.catalogue, &project.names, unit);
@@ -172,7 +181,7 @@ fn bound(project: &Project, attached: &AttachedTable) -> Result<(ItemId, BoundTa
         let errors = findings.iter().filter(|finding| finding.severity == crate::diagnostic::Severity::Error);
         let reasons = errors.map(|finding| Reason {
             message: finding.message.clone(),
-            help: finding.help.clone().unwrap_or_default(),
+            help: finding.help.join("; "),
             place: Some(finding.place),
         });
         return Err(Verdict::Unusable(reasons.collect()));

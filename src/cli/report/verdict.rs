@@ -45,7 +45,11 @@ pub(crate) fn totals(lines: &[Line]) -> String {
     let count = |word: &str| lines.iter().filter(|line| line.answer.verdict.word() == word).count();
     let counts = Verdict::WORDS.iter().map(|word| (count(word), word)).filter(|(count, _)| *count > 0);
     let counts: Vec<String> = counts.map(|(count, word)| format!("{count} {word}")).collect();
-    if counts.is_empty() { "no test tables".to_owned() } else { format!("{} tables: {}", lines.len(), counts.join(", ")) }
+    if counts.is_empty() {
+        "no test tables".to_owned()
+    } else {
+        format!("{} tables: {}", lines.len(), counts.join(", "))
+    }
 }
 
 /// For people.
@@ -77,7 +81,9 @@ fn told(project: &Project, line: &Line, colour: bool) -> String {
         Verdict::Unsupported { reasons } | Verdict::Unusable { reasons } => {
             reasons.iter().for_each(|reason| out.push_str(&format!("            {reason}\n")));
         }
-        Verdict::Bounded { cycles } => out.push_str(&format!("            no violation in the first {cycles} cycles\n")),
+        Verdict::Bounded { cycles } => {
+            out.push_str(&format!("            no violation in the first {cycles} cycles\n"))
+        }
         _ => {}
     }
     if let Some(internal) = line.verified.as_ref().and_then(|verified| verified.internal.as_ref()) {
@@ -108,7 +114,9 @@ fn loss(run: &Value) -> String {
             .as_array()
             .into_iter()
             .flatten()
-            .map(|cell| format!("{} is {}, not {}", text(&cell["column"]), text(&cell["seen"]), text(&cell["expected"])))
+            .map(|cell| {
+                format!("{} is {}, not {}", text(&cell["column"]), text(&cell["seen"]), text(&cell["expected"]))
+            })
             .collect();
         out.push_str(&format!("            cycle {}, row {}: {}\n", end["cycle"], text(&row["row"]), cells.join("; ")));
     }
@@ -141,7 +149,11 @@ fn drawn(project: &Project, line: &Line, run: &Value) -> String {
     }
     let options = diagram::Options { mark: Some(trace.cycles().saturating_sub(1)), ..diagram::Options::default() };
     let drawn = diagram::draw(&trace, &options);
-    let skipped = if first > 0 { format!("            cycles {} to {}\n", first + 1, replay.cycles.len()) } else { String::new() };
+    let skipped = if first > 0 {
+        format!("            cycles {} to {}\n", first + 1, replay.cycles.len())
+    } else {
+        String::new()
+    };
     let lines = drawn.lines().map(|line| format!("            {}\n", line.trim_end()));
     skipped + &lines.collect::<String>()
 }
