@@ -7,6 +7,7 @@ mod corpora;
 mod docs;
 mod evidence;
 mod fuzz;
+mod geteta;
 mod html;
 mod library;
 mod logic;
