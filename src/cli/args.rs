@@ -8,8 +8,10 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 const EXIT_CODES: &str = "\
 Exit codes:
   0  done; for `check`: nothing at or above the denied severity, and the gate is reached
-  1  `check` found something at or above the denied severity, or the gate is not reached
-  2  unusable input, configuration or arguments
+  1  `check` found something at or above the denied severity, or the gate is not reached;
+     `verify` found a violated table
+  2  unusable input, configuration, arguments or tables
+  3  `verify` left a table undecided: bounded, or not supported
 
 Start with:
   rungbook build                  the manual of this folder, in target/rungbook
@@ -37,6 +39,8 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Read, convert and align test tables; make concrete ones from them
     Table(super::commands::table::TableArgs),
+    /// Decide whether blocks conform to their test tables, in runs of every length
+    Verify(VerifyArgs),
     /// Explain a finding's code, or which comment documents an entity and why
     Explain(ExplainArgs),
     /// Write a commented rungbook.toml
@@ -111,6 +115,50 @@ pub(crate) struct CheckArgs {
 fn report_file(text: &str) -> Result<(Format, PathBuf), String> {
     let (format, file) = text.split_once('=').ok_or("write FORMAT=FILE, as in `sarif=out.sarif`")?;
     Ok((Format::from_str(format, true)?, PathBuf::from(file)))
+}
+
+/// `rungbook verify`.
+#[derive(Debug, Args)]
+pub(crate) struct VerifyArgs {
+    /// A folder, or the files of blocks and tables: PROGRAM.st LIBRARY.st TABLE.gtt [default: .]
+    #[arg(value_name = "DIR|FILE")]
+    pub(crate) paths: Vec<PathBuf>,
+    /// Configuration file [default: DIR/rungbook.toml, if there is one]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) config: Option<PathBuf>,
+    /// Only the table of this name
+    #[arg(long, value_name = "NAME")]
+    pub(crate) table: Option<String>,
+    /// The block that all tables specify, whatever they say themselves
+    #[arg(long, value_name = "NAME")]
+    pub(crate) unit: Option<String>,
+    /// Seconds for one table [default: 60, or as configured]
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) timeout: Option<f64>,
+    /// MiB of memory for one table [default: 4096, or as configured]
+    #[arg(long, value_name = "MIB")]
+    pub(crate) memory: Option<u64>,
+    /// How many tables at a time [default: one for each core]
+    #[arg(short, long, value_name = "N")]
+    pub(crate) jobs: Option<usize>,
+    /// Strict conformance: the environment may not keep a block in its table for ever
+    #[arg(long)]
+    pub(crate) strict: bool,
+    /// Cycle time of tables that state none, such as 4ms
+    #[arg(long, value_name = "TIME")]
+    pub(crate) cycle: Option<String>,
+    /// A time constant of the tables, such as TOUT=10 or TOUT=200ms
+    #[arg(long = "const", value_name = "NAME=VALUE")]
+    pub(crate) constants: Vec<String>,
+    /// Decide anew, whatever the store of verdicts knows
+    #[arg(long)]
+    pub(crate) fresh: bool,
+    /// How to print
+    #[arg(long, value_enum, default_value_t = Output::Text)]
+    pub(crate) format: Output,
+    /// No progress and no summary on stderr
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
 }
 
 /// `rungbook explain`.

@@ -25,6 +25,8 @@ pub enum Exit {
     Findings,
     /// Input, configuration or arguments cannot be used.
     Unusable,
+    /// A table has no verdict.
+    Undecided,
 }
 
 impl Exit {
@@ -35,6 +37,7 @@ impl Exit {
             Self::Ok => 0,
             Self::Findings => 1,
             Self::Unusable => 2,
+            Self::Undecided => 3,
         }
     }
 }
@@ -58,6 +61,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Build(args) => commands::build::run(&args),
         Command::Check(args) => commands::check::run(&args),
         Command::Table(args) => commands::table::run(&args),
+        Command::Verify(args) => commands::verify::run(&args),
         Command::Explain(args) => commands::explain::run(&args),
         Command::Init(args) => commands::init::run(&args),
         Command::Schema => commands::print::schema(),

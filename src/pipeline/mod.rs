@@ -2,11 +2,15 @@
 //!
 //! Progress goes out as [`Event`]s; date, commit and tool come in as one [`Stamp`].
 
+pub mod answer;
+pub mod artefact;
 mod libraries;
 mod overrides;
 mod read;
 pub mod records;
 mod tables;
+pub mod tell;
+pub mod verify;
 
 use std::collections::BTreeMap;
 
@@ -57,6 +61,21 @@ pub struct Stamp {
     pub author: String,
 }
 
+/// What the configuration and the command line say about proofs, as far as a verdict depends on it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Asked {
+    /// The cycle time in nanoseconds, for tables that state none.
+    pub cycle: Option<i128>,
+    /// Time constants that were set from outside.
+    pub constants: BTreeMap<String, String>,
+    /// Whether strict conformance is asked of every table.
+    pub strict: bool,
+    /// How often a loop without constant bounds may be done.
+    pub loop_limit: u64,
+    /// What stands for blocks that have no source, and what the user calls each.
+    pub stubs: Vec<(String, crate::machine::elaborate::Stub)>,
+}
+
 /// A source tree, read and understood.
 #[derive(Debug)]
 pub struct Project {
@@ -84,6 +103,8 @@ pub struct Project {
     pub skipped: Vec<(String, String)>,
     /// How many files are no PLC source.
     pub other_files: usize,
+    /// How its tables are proven.
+    pub asked: Asked,
     /// The narrative pages.
     pub narratives: Vec<Narrative>,
     /// The user's templates and theme files, by name.

@@ -1,6 +1,6 @@
 //! From a file system to a [`Project`].
 
-use super::{Event, Events, Project, libraries, overrides, tables};
+use super::{Asked, Event, Events, Project, libraries, overrides, tables};
 use crate::audit::{self, Context};
 use crate::config::Settings;
 use crate::diagnostic::Finding;
@@ -46,8 +46,30 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
         allowed: Vec::new(),
         skipped,
         other_files,
+        asked: asked(fs, settings),
         narratives: overrides::narratives(fs, &settings.manual),
         overrides: overrides::read(fs),
+    }
+}
+
+/// What is asked of proofs; a stub whose file cannot be read is left out, and what needs it is *unsupported*.
+fn asked(fs: &dyn FileSystem, settings: &Settings) -> Asked {
+    let text = |path: &str| {
+        let bytes = fs.read(path, settings.source.max_file_size).ok()?;
+        String::from_utf8(bytes).ok()
+    };
+    let stub = |(name, value): (&String, &String)| {
+        let arbitrary = value == "arbitrary";
+        let text = if arbitrary { format!("FUNCTION_BLOCK {name}\nEND_FUNCTION_BLOCK\n") } else { text(value)? };
+        Some((name.clone(), crate::machine::elaborate::Stub { text, arbitrary }))
+    };
+    let constants = settings.tables.all.constants.iter();
+    Asked {
+        cycle: settings.tables.all.cycle,
+        constants: constants.map(|(name, value)| (name.clone(), format!("{value:?}"))).collect(),
+        strict: settings.verify.options.strict,
+        loop_limit: settings.verify.loop_limit,
+        stubs: settings.verify.stubs.iter().filter_map(stub).collect(),
     }
 }
 

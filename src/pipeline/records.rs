@@ -206,7 +206,8 @@ pub fn records(
 ) -> Vec<(Record, Answer)> {
     let mut digests = Digests::new(project, fs);
     let mut one = |table: &AttachedTable| {
-        let claim = claim(&mut digests, table, None, BTreeMap::new());
+        let (cycle, options) = super::verify::asked(project, &table.table);
+        let claim = claim(&mut digests, table, Some(cycle), options);
         let answer = unusable(table).unwrap_or_else(|| answer(&claim, table));
         (Record::new(claim, &answer, origin(stamp)), answer)
     };

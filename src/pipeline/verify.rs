@@ -1,5 +1,6 @@
 //! From a test table to a verdict: bind, elaborate, translate, prove, check again.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -62,7 +63,7 @@ pub type Listener<'a> = dyn Fn(usize, Progress) + Sync + 'a;
 pub fn verify(project: &Project, settings: &Settings, table: usize, cancel: &Cancel, listener: &Listener<'_>) -> Verified {
     let start = Instant::now();
     let attached = &project.tables[table];
-    let cycle_time = cycle_time(&attached.table, settings);
+    let cycle_time = cycle_time(&attached.table, project);
     let mut made = Verified {
         table,
         unit: attached.item,
@@ -79,7 +80,7 @@ pub fn verify(project: &Project, settings: &Settings, table: usize, cancel: &Can
         program: None,
         internal: None,
     };
-    match prepare(project, settings, attached, cycle_time) {
+    match prepare(project, attached, cycle_time) {
         Ok(ready) => {
             made.assumptions.clone_from(&ready.program.assumptions);
             made.faults = ready.product.system.obligations.len() - 1;
@@ -104,28 +105,45 @@ struct Ready {
 }
 
 /// The table's cycle time, or the configured one, or 10 ms.
-fn cycle_time(table: &Table, settings: &Settings) -> u64 {
-    let own = table.options.cycle.map(|cycle| cycle.nanos).or(settings.tables.all.cycle);
+fn cycle_time(table: &Table, project: &Project) -> u64 {
+    let own = table.options.cycle.map(|cycle| cycle.nanos).or(project.asked.cycle);
     own.and_then(|nanos| u64::try_from(nanos).ok()).filter(|nanos| *nanos > 0).unwrap_or(10_000_000)
+}
+
+/// What a verdict on the table depends on besides the source: the cycle time in nanoseconds, and options by name.
+#[must_use]
+pub fn asked(project: &Project, table: &Table) -> (u64, BTreeMap<String, String>) {
+    let asked = &project.asked;
+    let mut options = BTreeMap::from([("loop-limit".to_owned(), asked.loop_limit.to_string())]);
+    if asked.strict {
+        options.insert("strict".to_owned(), "true".to_owned());
+    }
+    options.extend(asked.constants.iter().map(|(name, value)| (format!("const {name}"), value.clone())));
+    let stubs = asked.stubs.iter().map(|(name, stub)| {
+        let text = if stub.arbitrary { "arbitrary".to_owned() } else { stub.text.clone() };
+        (format!("stub {name}"), text)
+    });
+    options.extend(stubs);
+    (cycle_time(table, project), options)
 }
 
 fn reason(message: impl Into<String>, help: impl Into<String>) -> Reason {
     Reason { message: message.into(), help: help.into(), place: None }
 }
 
-fn prepare(project: &Project, settings: &Settings, attached: &AttachedTable, cycle_time: u64) -> Result<Ready, Verdict> {
+fn prepare(project: &Project, attached: &AttachedTable, cycle_time: u64) -> Result<Ready, Verdict> {
     let (unit, table) = bound(project, attached)?;
     let automaton = Automaton::build(&attached.table).map_err(|error| no_automaton(error, &attached.table))?;
     let options = elaborate::Options {
         cycle_time,
-        stubs: project.stubs.clone(),
+        stubs: project.asked.stubs.iter().map(|(_, stub)| stub.clone()).collect(),
         ..elaborate::Options::default()
     };
     let program = elaborate(&project.catalogue, &project.names, unit, &options).map_err(|list| {
         let reasons = list.into_iter().map(|one| Reason { message: one.message, help: one.help, place: one.place });
         Verdict::Unsupported(reasons.collect())
     })?;
-    let loop_limit = settings.verify.loop_limit;
+    let loop_limit = project.asked.loop_limit;
     let options = translate::Options { loop_limit, ..translate::Options::default() };
     let translated = translate::translate(&program, &options).map_err(|unsupported| {
         let message = format!("{} is not modelled", unsupported.what);

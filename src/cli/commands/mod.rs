@@ -6,3 +6,4 @@ pub(crate) mod explain;
 pub(crate) mod init;
 pub(crate) mod print;
 pub(crate) mod table;
+pub(crate) mod verify;

@@ -11,6 +11,7 @@ pub(crate) mod progress;
 mod sarif;
 pub(crate) mod summary;
 pub(crate) mod text;
+pub(crate) mod verdict;
 
 use super::Failure;
 use super::args::Format;

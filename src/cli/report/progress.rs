@@ -20,6 +20,13 @@ impl Progress {
         Self { bar: show.then(|| Mutex::new(ProgressBar::new(0))) }
     }
 
+    /// Says what is being tried.
+    pub(crate) fn message(&self, text: &str) {
+        if let Some(Ok(bar)) = self.bar.as_ref().map(Mutex::lock) {
+            bar.set_message(text.to_owned());
+        }
+    }
+
     /// Takes an event.
     pub(crate) fn event(&self, event: Event) {
         let Some(bar) = &self.bar else { return };

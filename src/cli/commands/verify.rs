@@ -1,0 +1,195 @@
+//! `rungbook verify`: decides whether blocks conform to their tables.
+#![expect(clippy::disallowed_methods, reason = "cli reads the files that it is given")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use crate::cli::args::{Output, VerifyArgs};
+use crate::cli::report::{progress::Progress, verdict};
+use crate::cli::store::Store;
+use crate::cli::{Exit, Failure, print, say, stamp, tree};
+use crate::config::{ConfigFile, Settings};
+use crate::evidence::record::{Answer, Record};
+use crate::library::names::fold;
+use crate::pipeline::verify::Verified;
+use crate::pipeline::{self, Project, answer, records};
+use crate::prove::engine::Cancel;
+use crate::source::{Disk, FileSystem, Memory};
+use crate::table::read;
+
+/// What is verified, and where verdicts are kept.
+struct Job {
+    project: Project,
+    settings: Settings,
+    fs: Box<dyn FileSystem>,
+    /// None for files without a folder.
+    store: Option<Store>,
+    dir: PathBuf,
+}
+
+pub(crate) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
+    let progress = Progress::new(args.quiet);
+    let mut job = job(args, &progress)?;
+    if let Some(unit) = &args.unit {
+        attach(&mut job.project, unit)?;
+    }
+    let chosen = chosen(&job.project, args.table.as_deref())?;
+    let done = decide(&job, &chosen, args, &progress)?;
+    match args.format {
+        Output::Json => print(&format!("{:#}\n", verdict::json(&job.project, &done))),
+        Output::Text => print(&verdict::text(&job.project, &done)),
+    }
+    if !args.quiet {
+        say(&verdict::totals(&done));
+    }
+    Ok(verdict::exit(&done))
+}
+
+/// A folder with its configuration, or some files.
+fn job(args: &VerifyArgs, progress: &Progress) -> Result<Job, Failure> {
+    let folder = match args.paths.as_slice() {
+        [] => Some(Path::new(".")),
+        [one] if one.is_dir() => Some(one.as_path()),
+        _ => None,
+    };
+    let dir = folder.map_or_else(|| Ok(PathBuf::from(".")), tree::folder)?;
+    let mut settings = match (folder, &args.config) {
+        (None, None) => Settings::new(ConfigFile::default()).map_err(|error| Failure(error.message))?,
+        _ => tree::settings(&dir, args.config.as_deref())?,
+    };
+    apply(args, &mut settings)?;
+    let (fs, name): (Box<dyn FileSystem>, String) = match folder {
+        Some(_) => {
+            let disk = Disk::new(&dir).map_err(|error| Failure(format!("`{}`: {error}", dir.display())))?;
+            let name = dir.file_name().map_or_else(|| "manual".to_owned(), |name| name.to_string_lossy().into_owned());
+            (Box::new(disk), name)
+        }
+        None => (Box::new(memory(&args.paths)?), "files".to_owned()),
+    };
+    let project = pipeline::read(fs.as_ref(), &name, &settings, &|event| progress.event(event));
+    let store = folder.map(|_| Store::new(&dir, &settings));
+    Ok(Job { project, settings, fs, store, dir })
+}
+
+/// The options of the command line win.
+fn apply(args: &VerifyArgs, settings: &mut Settings) -> Result<(), Failure> {
+    let options = &mut settings.verify.options;
+    if let Some(seconds) = args.timeout {
+        options.timeout = Duration::try_from_secs_f64(seconds)
+            .map_err(|_| Failure(format!("`--timeout {seconds}` is no time in seconds")))?;
+    }
+    options.memory = args.memory.unwrap_or(options.memory);
+    options.strict |= args.strict;
+    settings.verify.jobs = args.jobs.unwrap_or(settings.verify.jobs);
+    if let Some(text) = &args.cycle {
+        let cycle = read::time(text).filter(|nanos| *nanos > 0);
+        let failure = || Failure(format!("`--cycle {text}` is no time; it takes `4ms`, `500us`, `T#1s`"));
+        settings.tables.all.cycle = Some(cycle.ok_or_else(failure)?);
+    }
+    for text in &args.constants {
+        let value = text.split_once('=').and_then(|(name, value)| Some((name.trim(), read::quantity(value)?)));
+        let failure = || Failure(format!("`--const {text}` is no constant; it takes `TOUT=10` or `TOUT=200ms`"));
+        let (name, value) = value.ok_or_else(failure)?;
+        settings.tables.all.constants.insert(name.to_owned(), value);
+    }
+    Ok(())
+}
+
+/// The files, by their names; files of one name keep their folders.
+fn memory(paths: &[PathBuf]) -> Result<Memory, Failure> {
+    let mut fs = Memory::new();
+    for path in paths {
+        let bytes = fs::read(path).map_err(|error| Failure(format!("`{}`: {error}", path.display())))?;
+        let short = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let twice = paths.iter().filter(|other| other.file_name() == path.file_name()).count() > 1;
+        let name = if twice { path.to_string_lossy().trim_start_matches(['/', '.']).to_owned() } else { short };
+        fs = fs.with(&name, bytes);
+    }
+    Ok(fs)
+}
+
+/// Binds every table to the unit that the command line names.
+fn attach(project: &mut Project, unit: &str) -> Result<(), Failure> {
+    let found = project.catalogue.iter().find(|(_, item)| fold(&item.name) == fold(unit)).map(|(id, _)| id);
+    let id = found.ok_or_else(|| Failure(format!("no block is named `{unit}`")))?;
+    project.tables.iter_mut().for_each(|table| table.item = Some(id));
+    Ok(())
+}
+
+/// The tables to decide.
+fn chosen(project: &Project, name: Option<&str>) -> Result<Vec<usize>, Failure> {
+    let fits = |index: &usize| name.is_none_or(|name| fold(&project.tables[*index].table.name) == fold(name));
+    let chosen: Vec<usize> = (0..project.tables.len()).filter(fits).collect();
+    match name {
+        Some(name) if chosen.is_empty() => Err(Failure(format!("no table is named `{name}`"))),
+        _ => Ok(chosen),
+    }
+}
+
+/// Decides the tables, several at a time; each verdict is kept as soon as it is there.
+fn decide(job: &Job, chosen: &[usize], args: &VerifyArgs, progress: &Progress) -> Result<Vec<verdict::Line>, Failure> {
+    let stamp = stamp::stamp(&job.dir);
+    let known = |claim: &_, _: &_| match (&job.store, args.fresh) {
+        (Some(store), false) => store.answer(claim),
+        _ => answer::nothing(),
+    };
+    let known = records::records(&job.project, job.fs.as_ref(), &stamp, &mut { known });
+    progress.event(pipeline::Event::Stage { name: "proving", total: chosen.len() });
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<verdict::Line>> = Mutex::new(Vec::new());
+    let failed: Mutex<Option<Failure>> = Mutex::new(None);
+    let cancel = Cancel::default();
+    let work = || {
+        while let Some(index) = chosen.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let line = one(job, &known[*index], *index, &cancel, progress, &failed);
+            progress.event(pipeline::Event::Advance(1));
+            if let Ok(mut done) = done.lock() {
+                done.push(line);
+            }
+        }
+    };
+    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let jobs = if job.settings.verify.jobs == 0 { cores() } else { job.settings.verify.jobs };
+    std::thread::scope(|scope| {
+        for _ in 0..jobs.min(chosen.len()).max(1) {
+            scope.spawn(work);
+        }
+    });
+    progress.event(pipeline::Event::Done);
+    if let Some(failure) = failed.into_inner().unwrap_or_default() {
+        return Err(failure);
+    }
+    let mut done = done.into_inner().unwrap_or_default();
+    done.sort_by_key(|line| line.table);
+    Ok(done)
+}
+
+/// What the store knows of a table, or a new verdict.
+fn one(
+    job: &Job,
+    known: &(Record, Answer),
+    table: usize,
+    cancel: &Cancel,
+    progress: &Progress,
+    failed: &Mutex<Option<Failure>>,
+) -> verdict::Line {
+    if answer::is_settled(&known.1) {
+        return verdict::Line { table, answer: known.1.clone(), verified: None };
+    }
+    let unit = job.project.tables[table].table.name.clone();
+    let listener = |_: usize, now: crate::prove::engine::Progress| {
+        progress.message(&format!("{unit}: {} {}", now.engine, now.depth));
+    };
+    let verified: Verified = pipeline::verify::verify(&job.project, &job.settings, table, cancel, &listener);
+    let answer = answer::of(&job.project, &verified);
+    if let Some(store) = &job.store {
+        let record = Record::new(known.0.claim.clone(), &answer, known.0.origin.clone());
+        if let (Err(failure), Ok(mut failed)) = (store.keep(&record, &answer), failed.lock()) {
+            *failed = Some(failure);
+        }
+    }
+    verdict::Line { table, answer, verified: Some(verified) }
+}
