@@ -9,7 +9,7 @@ const EXIT_CODES: &str = "\
 Exit codes:
   0  done; for `check`: nothing at or above the denied severity, and the gate is reached
   1  `check` found something at or above the denied severity, or the gate is not reached;
-     `verify` found a violated table
+     `verify` found a violated table; `diff` found what the gate denies; `evidence verify` found a change
   2  unusable input, configuration, arguments or tables
   3  `verify` left a table undecided: bounded, or not supported
 
@@ -41,6 +41,11 @@ pub(crate) enum Command {
     Table(super::commands::table::TableArgs),
     /// Decide whether blocks conform to their test tables, in runs of every length
     Verify(VerifyArgs),
+    /// Pack a release with its evidence, sign it, check it again
+    #[command(subcommand)]
+    Evidence(EvidenceCommand),
+    /// Compare two releases: interfaces, documentation, tables cell by cell, evidence
+    Diff(DiffArgs),
     /// Explain a finding's code, or which comment documents an entity and why
     Explain(ExplainArgs),
     /// Write a commented rungbook.toml
@@ -87,6 +92,12 @@ pub(crate) struct BuildArgs {
     /// Write the model, OUT/model.json (its schema: `rungbook schema`)
     #[arg(long)]
     pub(crate) json: bool,
+    /// Add the evidence report as a page
+    #[arg(long)]
+    pub(crate) evidence: bool,
+    /// Add a page of the changes since this release: a bundle, a folder, or a git revision
+    #[arg(long, value_name = "OLD")]
+    pub(crate) previous: Option<String>,
 }
 
 /// `rungbook check`.
@@ -159,6 +170,94 @@ pub(crate) struct VerifyArgs {
     /// No progress and no summary on stderr
     #[arg(short, long)]
     pub(crate) quiet: bool,
+}
+
+/// `rungbook evidence`.
+#[derive(Debug, Subcommand)]
+pub(crate) enum EvidenceCommand {
+    /// Write a bundle: manual, report, records, certificates, runs, tables, sources, signed
+    Bundle(BundleArgs),
+    /// Check a bundle, without a network: signature, manifest, digests, records, certificates
+    Verify(BundleVerifyArgs),
+    /// Write a new Ed25519 key, FILE, and its public half, FILE.pub
+    Keygen {
+        /// File to write to; it must not exist
+        #[arg(value_name = "FILE")]
+        file: PathBuf,
+    },
+    /// Print the JSON Schema of a record
+    Schema,
+}
+
+/// `rungbook evidence bundle`.
+#[derive(Debug, Args)]
+pub(crate) struct BundleArgs {
+    #[command(flatten)]
+    pub(crate) tree: TreeArgs,
+    /// File to write
+    #[arg(short, long, value_name = "FILE", default_value = "release.zip")]
+    pub(crate) output: PathBuf,
+    /// Private key: Ed25519 as PKCS #8 (PEM), or OpenSSH's; without it nobody signs
+    #[arg(long, value_name = "FILE")]
+    pub(crate) key: Option<PathBuf>,
+    /// The previous release, for the page of changes: a bundle, a folder, or a git revision
+    #[arg(long, value_name = "OLD")]
+    pub(crate) previous: Option<String>,
+    /// Leave the PDFs out
+    #[arg(long)]
+    pub(crate) no_pdf: bool,
+}
+
+/// `rungbook evidence verify`.
+#[derive(Debug, Args)]
+pub(crate) struct BundleVerifyArgs {
+    /// The bundle
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Public key that must have signed it (PEM, OpenSSH, or allowed_signers); may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) key: Vec<PathBuf>,
+    /// Print nothing if all is well
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// `rungbook diff`.
+#[derive(Debug, Args)]
+pub(crate) struct DiffArgs {
+    /// The older release: a bundle, a folder, or a git revision
+    pub(crate) old: String,
+    /// The newer release
+    #[arg(default_value = ".")]
+    pub(crate) new: String,
+    /// The folder that git revisions are taken of
+    #[arg(short = 'C', long = "in", value_name = "DIR", default_value = ".")]
+    pub(crate) dir: PathBuf,
+    /// How to print
+    #[arg(long, value_enum, default_value_t = DiffFormat::Text)]
+    pub(crate) format: DiffFormat,
+    /// Fail on incompatible changes [default: as configured]
+    #[arg(long)]
+    pub(crate) deny_breaking: bool,
+    /// Fail where a table was verified and is not any more [default: as configured]
+    #[arg(long)]
+    pub(crate) deny_lost_evidence: bool,
+    /// No summary on stderr
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// How a comparison is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DiffFormat {
+    /// For people
+    Text,
+    /// One JSON object
+    Json,
+    /// A page in Markdown
+    Markdown,
+    /// A page in HTML
+    Html,
 }
 
 /// `rungbook explain`.

@@ -2,6 +2,7 @@
 
 mod args;
 mod commands;
+mod release;
 mod report;
 mod stamp;
 mod store;
@@ -62,6 +63,8 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Check(args) => commands::check::run(&args),
         Command::Table(args) => commands::table::run(&args),
         Command::Verify(args) => commands::verify::run(&args),
+        Command::Evidence(command) => commands::evidence::run(&command),
+        Command::Diff(args) => commands::diff::run(&args),
         Command::Explain(args) => commands::explain::run(&args),
         Command::Init(args) => commands::init::run(&args),
         Command::Schema => commands::print::schema(),

@@ -9,7 +9,7 @@ use crate::config::Settings;
 use crate::evidence::cache;
 use crate::evidence::record::{Answer, Record};
 use crate::pipeline::{Project, Stamp, records};
-use crate::source::Disk;
+use crate::source::{Disk, FileSystem};
 
 /// A store.
 pub(crate) struct Store {
@@ -55,12 +55,23 @@ pub(crate) fn known(
     stamp: &Stamp,
 ) -> Result<Vec<(Record, Answer)>, Failure> {
     let fs = Disk::new(dir).map_err(|error| Failure(format!("`{}`: {error}", dir.display())))?;
+    Ok(known_of(&fs, dir, project, settings, stamp))
+}
+
+/// The same for a project that was read from `fs`; the store is that of the folder `dir`.
+pub(crate) fn known_of(
+    fs: &dyn FileSystem,
+    dir: &Path,
+    project: &Project,
+    settings: &Settings,
+    stamp: &Stamp,
+) -> Vec<(Record, Answer)> {
     let store = Store::new(dir, settings);
     let mut answer = |claim: &_, _: &_| cache::answer(claim, cache::lookup(claim, &|path| store.read(path)));
-    let mut records = records::records(project, &fs, stamp, &mut answer);
+    let mut records = records::records(project, fs, stamp, &mut answer);
     // What an engine took differs from run to run; where bytes have to be reproducible it is not told.
     if std::env::var_os("SOURCE_DATE_EPOCH").is_some() {
         records.iter_mut().for_each(|(record, _)| record.effort = None);
     }
-    Ok(records)
+    records
 }

@@ -9,7 +9,7 @@ use super::args::TreeArgs;
 use super::report::progress::Progress;
 use crate::config::{ConfigFile, Settings};
 use crate::pipeline::{self, Project};
-use crate::source::Disk;
+use crate::source::{Disk, FileSystem};
 
 /// Settings from `--config`, or from `rungbook.toml` in the folder, or the defaults.
 pub(crate) fn settings(dir: &Path, config: Option<&Path>) -> Result<Settings, Failure> {
@@ -45,7 +45,20 @@ pub(crate) fn read(
     }
     let name = dir.file_name().map_or_else(|| "manual".to_owned(), |name| name.to_string_lossy().into_owned());
     let fs = Disk::new(&dir).map_err(|error| Failure(format!("`{}`: {error}", dir.display())))?;
-    let mut project = pipeline::read(&fs, &name, &settings, &|event| progress.event(event));
-    pipeline::allow(&mut project, &settings, &super::stamp::stamp(&dir).date);
-    Ok((project, settings))
+    let today = super::stamp::stamp(&dir).date;
+    Ok((read_from(&fs, &name, &settings, &today, progress), settings))
+}
+
+/// Reads the tree of `fs`, with what stands beside it and what its source allows on the day `today`.
+pub(crate) fn read_from(
+    fs: &dyn FileSystem,
+    name: &str,
+    settings: &Settings,
+    today: &str,
+    progress: &Progress,
+) -> Project {
+    let mut project = pipeline::read(fs, name, settings, &|event| progress.event(event));
+    pipeline::read_beside(fs, settings, &mut project);
+    pipeline::allow(&mut project, settings, today);
+    project
 }

@@ -39,3 +39,14 @@ pub(crate) fn folder<'a>(folder: &Path, files: impl Iterator<Item = (&'a str, &'
     }
     Ok(())
 }
+
+/// Writes `bytes` to the new file `path`, which only its owner may read.
+pub(crate) fn secret(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    use std::io::Write;
+    let failure = |error: std::io::Error| Failure(format!("cannot write `{}`: {error}", path.display()));
+    let mut options = fs::OpenOptions::new();
+    options.write(true).create_new(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options.open(path).and_then(|mut file| file.write_all(bytes)).map_err(failure)
+}

@@ -5,9 +5,14 @@
 
 pub mod bundle;
 pub mod cache;
+pub mod changelog;
 pub mod codes;
+pub mod diff;
 pub mod digest;
 pub mod policy;
 pub mod record;
+pub mod report;
 pub mod requirements;
 pub mod results;
+pub mod snapshot;
+pub mod trace;

@@ -78,7 +78,9 @@ fn reqif(text: &str) -> Result<Vec<Requirement>, String> {
             let reference = value.descendants().find(|node| node.tag_name().name().ends_with("-REF"));
             let reference = reference.and_then(|node| node.text()).unwrap_or("").trim();
             let holder = value.children().find(|node| tag(node, "THE-VALUE"));
-            let words = holder.map(|holder| holder.descendants().filter_map(|node| node.text()).collect::<String>());
+            let words = holder.map(|holder| {
+                holder.descendants().filter(roxmltree::Node::is_text).filter_map(|node| node.text()).collect::<String>()
+            });
             names.push(definition(reference));
             values.push(value.attribute("THE-VALUE").map(str::to_owned).or(words).unwrap_or_default());
         }

@@ -4,10 +4,12 @@
 
 pub mod answer;
 pub mod artefact;
+pub mod evidence;
 mod libraries;
 mod overrides;
 mod read;
 pub mod records;
+pub mod snapshot;
 mod tables;
 pub mod tell;
 pub mod verify;
@@ -20,10 +22,11 @@ use crate::config::Settings;
 use crate::diagnostic::Finding;
 use crate::docs::Docs;
 use crate::evidence::policy::allow::{self, Allowed};
-use crate::library::Catalogue;
 use crate::library::names::Names;
 use crate::library::relations::Relations;
+use crate::library::{Catalogue, Library};
 use crate::render::html;
+use crate::source::FileSystem;
 use crate::table::AttachedTable;
 use crate::text::Files;
 
@@ -99,6 +102,8 @@ pub struct Project {
     pub findings: Vec<Finding>,
     /// The findings that an allowance in the source lets pass.
     pub allowed: Vec<Allowed>,
+    /// Requirements and results that stand beside the tree.
+    pub beside: evidence::Beside,
     /// Files whose kind is read, and that were not: path and reason.
     pub skipped: Vec<(String, String)>,
     /// How many files are no PLC source.
@@ -111,6 +116,11 @@ pub struct Project {
     pub overrides: BTreeMap<String, String>,
 }
 
+/// Reads what stands beside the tree of `fs` and belongs to its evidence.
+pub fn read_beside(fs: &dyn FileSystem, settings: &Settings, project: &mut Project) {
+    project.beside = evidence::read(fs, settings, project);
+}
+
 /// Lets findings pass where the source says so; `today` is the stamp's date, after which an allowance no longer holds.
 pub fn allow(project: &mut Project, settings: &Settings, today: &str) {
     let findings = std::mem::take(&mut project.findings);
@@ -120,21 +130,28 @@ pub fn allow(project: &mut Project, settings: &Settings, today: &str) {
     project.allowed = sorted.allowed;
 }
 
+/// Title and version of what is documented: as configured, or as its only library says.
+fn title(project: &Project, settings: &Settings) -> (String, String) {
+    let title = settings.title.clone().or_else(|| of_library(project, |library| &library.name));
+    let version = settings.version.clone().or_else(|| of_library(project, |library| &library.version));
+    (title.unwrap_or_else(|| project.name.clone()), version.unwrap_or_default())
+}
+
+/// What the only library of `project` says; nothing if there are several, or it says nothing.
+fn of_library(project: &Project, what: impl Fn(&Library) -> &String) -> Option<String> {
+    let [library] = project.catalogue.libraries.as_slice() else { return None };
+    Some(what(library)).filter(|text| !text.is_empty()).cloned()
+}
+
 /// The manual of `project`.
 #[must_use]
 pub fn book(project: &Project, settings: &Settings, stamp: &Stamp) -> Book {
-    let single = match project.catalogue.libraries.as_slice() {
-        [library] => Some(library),
-        _ => None,
-    };
-    let known = |text: Option<&String>| text.filter(|text| !text.is_empty()).cloned();
-    let title = settings.title.clone().or_else(|| known(single.map(|library| &library.name)));
-    let version = settings.version.clone().or_else(|| known(single.map(|library| &library.version)));
-    let author = settings.author.clone().or_else(|| known(single.map(|library| &library.author)));
+    let (title, version) = title(project, settings);
+    let author = settings.author.clone().or_else(|| of_library(project, |library| &library.author));
     let front = Front {
-        title: title.unwrap_or_else(|| project.name.clone()),
+        title,
         subtitle: settings.subtitle.clone(),
-        version: version.unwrap_or_default(),
+        version,
         date: stamp.date.clone(),
         commit: stamp.commit.clone(),
         author: author.unwrap_or_default(),
@@ -179,12 +196,44 @@ pub fn pdf(project: &Project, book: &Book, settings: &Settings, events: &Events<
     pdf::render(book, &options).map(|document| document.bytes).map_err(|error| error.to_string())
 }
 
+/// The evidence report as PDF/A-3b, with `attachments` (path and bytes, JSON all) inside.
+///
+/// # Errors
+/// If typst refuses the document, or this tool was built without it.
+#[cfg(feature = "pdf")]
+pub fn report_pdf(
+    project: &Project,
+    book: &Book,
+    settings: &Settings,
+    attachments: Vec<(String, Vec<u8>)>,
+) -> Result<Vec<u8>, String> {
+    use crate::render::pdf;
+    let options = settings.pdf_options(project.overrides.clone(), &book.front.date).map_err(|error| error.message)?;
+    let attachment = |(path, bytes)| pdf::Attachment { path, bytes, mime: "application/json".to_owned() };
+    let options = pdf::Options {
+        standard: pdf::Standard::A3b,
+        attachments: attachments.into_iter().map(attachment).collect(),
+        parts: pdf::Parts { coverage: false, findings: false, index: false, ..pdf::Parts::default() },
+        ..options
+    };
+    pdf::render(book, &options).map(|document| document.bytes).map_err(|error| error.to_string())
+}
+
 /// The PDF.
 ///
 /// # Errors
 /// Always: this tool was built without it.
 #[cfg(not(feature = "pdf"))]
 pub fn pdf(_: &Project, _: &Book, _: &Settings, _: &Events<'_>) -> Result<Vec<u8>, String> {
+    Err("this rungbook was built without the feature `pdf`".to_owned())
+}
+
+/// The evidence report as PDF.
+///
+/// # Errors
+/// Always: this tool was built without it.
+#[cfg(not(feature = "pdf"))]
+pub fn report_pdf(_: &Project, _: &Book, _: &Settings, _: Vec<(String, Vec<u8>)>) -> Result<Vec<u8>, String> {
     Err("this rungbook was built without the feature `pdf`".to_owned())
 }
 

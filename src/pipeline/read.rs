@@ -44,6 +44,7 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
         tables: tables.tables,
         findings,
         allowed: Vec::new(),
+        beside: super::evidence::Beside::default(),
         skipped,
         other_files,
         asked: asked(fs, settings),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::book::view::Book;
 use crate::cli::args::BuildArgs;
 use crate::cli::report::{progress::Progress, summary::summary};
-use crate::cli::{Exit, Failure, say, stamp, tree, write};
+use crate::cli::{Exit, Failure, release, say, stamp, store, tree, write};
 use crate::config::Settings;
 use crate::pipeline::{self, Project};
 
@@ -31,9 +31,10 @@ pub(crate) fn run(args: &BuildArgs) -> Result<Exit, Failure> {
     let output = args.output.clone().unwrap_or_else(|| dir.join("target").join("rungbook"));
     let output = std::path::absolute(&output).map_err(|error| Failure(error.to_string()))?;
     let progress = Progress::new(args.tree.quiet);
-    let (project, settings) = tree::read(&args.tree, Some(&output), &progress)?;
+    let (mut project, settings) = tree::read(&args.tree, Some(&output), &progress)?;
     let outputs = Outputs::new(args, &settings);
     let stamp = stamp::stamp(&dir);
+    add_pages(args, &dir, &mut project, &settings, &stamp)?;
     progress.event(pipeline::Event::Stage { name: "book", total: 0 });
     let book = pipeline::book(&project, &settings, &stamp);
     let written = write_all(&outputs, &output, &project, &book, &settings, &progress)?;
@@ -43,6 +44,31 @@ pub(crate) fn run(args: &BuildArgs) -> Result<Exit, Failure> {
         say(&summary(&book, &shown));
     }
     Ok(Exit::Ok)
+}
+
+/// Adds the pages of evidence and changes, where they are asked for.
+fn add_pages(
+    args: &BuildArgs,
+    dir: &Path,
+    project: &mut Project,
+    settings: &Settings,
+    stamp: &pipeline::Stamp,
+) -> Result<(), Failure> {
+    if !args.evidence && args.previous.is_none() {
+        return Ok(());
+    }
+    let records = store::known(dir, project, settings, stamp)?;
+    let changes = args.previous.as_deref().map(|old| {
+        let new = pipeline::snapshot::snapshot(project, settings, stamp, &records);
+        release::snapshot(old, dir).map(|old| crate::evidence::diff::compare(&old, &new))
+    });
+    let changes = changes.transpose()?;
+    let mut pages = pipeline::evidence::pages(project, settings, stamp, &records, changes.as_ref());
+    if !args.evidence {
+        pages.remove(0);
+    }
+    project.narratives.append(&mut pages);
+    Ok(())
 }
 
 fn write_all(

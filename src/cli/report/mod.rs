@@ -2,6 +2,7 @@
 
 mod annotations;
 pub(crate) mod findings;
+pub(crate) mod diff;
 mod json;
 mod junit;
 mod markdown;

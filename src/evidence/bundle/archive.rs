@@ -1,6 +1,6 @@
 //! A ZIP archive in one canonical form (PKWARE APPNOTE 6.3): files sorted by name, stored, dated 1980-01-01, no comment, no
 //! extra field. Written by hand, so that the same content gives the same bytes whatever library comes and goes, and
-//! so that a reader can account for every byte: [`read`] writes what it read again and compares.
+//! so that a reader can account for every byte: [`read`] writes again what it read, and compares.
 
 use std::collections::BTreeMap;
 
@@ -12,6 +12,9 @@ pub struct Fault {
     /// What is wrong.
     pub message: String,
 }
+
+/// The files of an archive, by name.
+pub type Files = BTreeMap<String, Vec<u8>>;
 
 /// The name for the list of files at the end of the archive.
 pub const DIRECTORY: &str = "the archive's directory";
@@ -55,7 +58,7 @@ const fn table() -> [u32; 256] {
 ///
 /// # Errors
 /// If there are more files or bytes than the format holds without its extension for large archives.
-pub fn write(files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, String> {
+pub fn write(files: &Files) -> Result<Vec<u8>, String> {
     let count = u16::try_from(files.len()).map_err(|_| "more than 65535 files".to_owned())?;
     let (mut out, mut directory) = (Vec::new(), Vec::new());
     for (name, bytes) in files {
@@ -107,53 +110,70 @@ fn common(name: &str, bytes: &[u8]) -> Result<Vec<u8>, String> {
 }
 
 /// The files of an archive, as far as they can be told, and everything in which it differs from its canonical form.
+///
+/// The list of files stands in it twice, before each file and in the directory. Where the two do not agree, that
+/// reading counts whose canonical form is nearer to the bytes, so that a fault is found where it is.
 #[must_use]
-pub fn read(bytes: &[u8]) -> (BTreeMap<String, Vec<u8>>, Vec<Fault>) {
-    let mut faults = Vec::new();
-    let files = match entries(bytes, &mut faults) {
-        Ok(files) => files,
-        Err(message) => {
-            faults.push(Fault { part: DIRECTORY.to_owned(), message });
-            return (BTreeMap::new(), faults);
+pub fn read(bytes: &[u8]) -> (Files, Vec<Fault>) {
+    let mut best: Option<(usize, Files, Option<Fault>)> = None;
+    for reading in [by_directory(bytes), by_headers(bytes)].into_iter().flatten() {
+        let Ok(again) = write(&reading) else { continue };
+        let distance = distance(&again, bytes);
+        let fault = difference(&reading, &again, bytes);
+        if distance == 0 {
+            return (reading, Vec::new());
         }
-    };
-    match write(&files) {
-        Ok(again) if again == bytes => {}
-        Ok(again) => faults.extend(difference(&files, &again, bytes)),
-        Err(message) => faults.push(Fault { part: DIRECTORY.to_owned(), message }),
+        if best.as_ref().is_none_or(|(known, ..)| distance < *known) {
+            best = Some((distance, reading, fault));
+        }
     }
-    (files, faults)
+    match best {
+        Some((_, files, fault)) => (files, fault.into_iter().collect()),
+        None => {
+            let message = "it is no archive of this tool".to_owned();
+            (Files::new(), vec![Fault { part: DIRECTORY.to_owned(), message }])
+        }
+    }
+}
+
+fn distance(a: &[u8], b: &[u8]) -> usize {
+    a.iter().zip(b).filter(|(a, b)| a != b).count() + a.len().abs_diff(b.len())
 }
 
 /// The files that the directory lists.
-fn entries(bytes: &[u8], faults: &mut Vec<Fault>) -> Result<BTreeMap<String, Vec<u8>>, String> {
-    let end = bytes.len().checked_sub(22).ok_or("too short for an archive")?;
-    if number(bytes, end, 4) != Some(END as usize) {
-        return Err("it does not end as an archive of this tool does".to_owned());
-    }
-    let get = |at, width| number(bytes, at, width).ok_or_else(|| "cut off".to_owned());
-    let (count, start) = (get(end + 10, 2)?, get(end + 16, 4)?);
-    let mut files = BTreeMap::new();
+fn by_directory(bytes: &[u8]) -> Option<Files> {
+    let end = bytes.len().checked_sub(22)?;
+    let (count, start) = (number(bytes, end + 10, 2)?, number(bytes, end + 16, 4)?);
+    let mut files = Files::new();
     let mut at = start;
     for _ in 0..count {
-        if get(at, 4)? != CENTRAL as usize {
-            return Err(format!("no entry at byte {at}"));
-        }
-        let (length, stored, offset) = (get(at + 28, 2)?, get(at + 20, 4)?, get(at + 42, 4)?);
-        let name = bytes.get(at + 46..at + 46 + length).ok_or("cut off")?;
-        let name = String::from_utf8(name.to_vec()).map_err(|_| "a name is not UTF-8".to_owned())?;
+        let (length, stored, offset) =
+            (number(bytes, at + 28, 2)?, number(bytes, at + 20, 4)?, number(bytes, at + 42, 4)?);
+        let name = String::from_utf8(slice(bytes, at + 46, length)?.to_vec()).ok()?;
         at += 46 + length;
-        // The name in the local header is as long; where it is not, the comparison finds it.
-        let from = offset + 30 + length;
-        let Some(data) = from.checked_add(stored).and_then(|to| bytes.get(from..to)) else {
-            faults.push(Fault { part: name, message: "it reaches beyond the archive".to_owned() });
-            continue;
-        };
-        if files.insert(name.clone(), data.to_vec()).is_some() {
-            faults.push(Fault { part: name, message: "it is there twice".to_owned() });
-        }
+        let data = slice(bytes, offset + 30 + length, stored)?;
+        files.insert(name, data.to_vec());
     }
-    Ok(files)
+    Some(files)
+}
+
+/// The files as their own headers tell, one behind the other.
+fn by_headers(bytes: &[u8]) -> Option<Files> {
+    let mut files = Files::new();
+    let mut at = 0;
+    // The first bytes that begin no file begin the directory; a header whose mark was changed is passed over by its place.
+    while number(bytes, at, 4)? != CENTRAL as usize && number(bytes, at, 4)? != END as usize {
+        let (length, stored) = (number(bytes, at + 26, 2)?, number(bytes, at + 22, 4)?);
+        let name = String::from_utf8(slice(bytes, at + 30, length)?.to_vec()).ok()?;
+        let data = slice(bytes, at + 30 + length, stored)?;
+        files.insert(name, data.to_vec());
+        at += 30 + length + stored;
+    }
+    Some(files)
+}
+
+fn slice(bytes: &[u8], from: usize, length: usize) -> Option<&[u8]> {
+    bytes.get(from..from.checked_add(length)?)
 }
 
 fn number(bytes: &[u8], at: usize, width: usize) -> Option<usize> {
@@ -162,7 +182,7 @@ fn number(bytes: &[u8], at: usize, width: usize) -> Option<usize> {
 }
 
 /// Where `found` first differs from the canonical form of its files.
-fn difference(files: &BTreeMap<String, Vec<u8>>, canonical: &[u8], found: &[u8]) -> Option<Fault> {
+fn difference(files: &Files, canonical: &[u8], found: &[u8]) -> Option<Fault> {
     let at = canonical.iter().zip(found).position(|(a, b)| a != b);
     let at = at.or_else(|| (canonical.len() != found.len()).then(|| canonical.len().min(found.len())))?;
     let mut start = 0;

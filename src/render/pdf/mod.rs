@@ -23,7 +23,7 @@ use typst_pdf::{PdfOptions, PdfStandards};
 use crate::book::view::Book;
 
 pub use error::Error;
-pub use options::{Date, Options, Paper, Parts, Standard};
+pub use options::{Attachment, Date, Options, Paper, Parts, Standard};
 pub use templates::EMBEDDED;
 
 /// A finished manual.

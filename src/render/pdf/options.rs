@@ -28,6 +28,19 @@ pub struct Options {
     pub date: Option<Date>,
     /// The program that makes it.
     pub creator: String,
+    /// Files inside the PDF; only PDF/A-3 and plain PDF hold any.
+    pub attachments: Vec<Attachment>,
+}
+
+/// A file inside the PDF.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Attachment {
+    /// Its name as a viewer lists it.
+    pub path: String,
+    /// Its content.
+    pub bytes: Vec<u8>,
+    /// Its media type.
+    pub mime: String,
 }
 
 impl Default for Options {
@@ -43,6 +56,7 @@ impl Default for Options {
             templates: BTreeMap::new(),
             date: None,
             creator: "rungbook".to_owned(),
+            attachments: Vec::new(),
         }
     }
 }

@@ -38,7 +38,9 @@ impl Manual {
     pub(super) fn new(options: &Options, fonts: Fonts, data: Vec<(&'static str, Vec<u8>)>) -> Self {
         let templates = templates::files(&options.templates).into_iter();
         let data = data.into_iter().map(|(name, bytes)| (name.to_owned(), bytes));
-        let files = templates.chain(data).map(|(name, bytes)| (name, Bytes::new(bytes))).collect();
+        let attached = options.attachments.iter().enumerate();
+        let attached = attached.map(|(n, attachment)| (format!("attachments/{n}"), attachment.bytes.clone()));
+        let files = templates.chain(data).chain(attached).map(|(name, bytes)| (name, Bytes::new(bytes))).collect();
         Self {
             library: LazyHash::new(Library::default()),
             fonts,

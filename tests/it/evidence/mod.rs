@@ -1,8 +1,12 @@
 //! Evidence: formats for pipelines, allowances, baseline and gate, records and their store.
 
+mod bundle;
+mod diff;
 mod formats;
 mod policy;
 mod records;
+mod trace;
+mod walk;
 
 use std::fs;
 use std::path::Path;
@@ -15,6 +19,11 @@ pub(crate) fn rungbook() -> Command {
     let mut command = Command::cargo_bin("rungbook").expect("the binary of this package");
     command.env("SOURCE_DATE_EPOCH", "1795305600").env("RUNGBOOK_AUTHOR", "A. Tester").env_remove("NO_COLOR");
     command
+}
+
+/// How many cases a property is tried on; more with `RUNGBOOK_CASES`.
+pub(crate) fn cases(usual: u32) -> u32 {
+    std::env::var("RUNGBOOK_CASES").ok().and_then(|value| value.parse().ok()).unwrap_or(usual)
 }
 
 /// A folder with `files`.

@@ -155,6 +155,11 @@ fn settings(book: &Book, options: &Options, space: plan::Space) -> Value {
         "margin": plan::MARGIN,
         "width": space.portrait,
         "height": space.height,
+        "attachments": options.attachments.iter().enumerate().map(|(n, attachment)| json!({
+            "path": attachment.path,
+            "file": format!("/attachments/{n}"),
+            "mime": attachment.mime,
+        })).collect::<Vec<_>>(),
         "parts": {
             "chapters": options.parts.chapters,
             "internals": options.parts.internals,
