@@ -106,9 +106,9 @@ impl<'c> Elaborator<'c> {
         }
         let mut decls = Vec::new();
         self.world.declarations(def.node.fields(), Section::Field, false, &mut decls);
-        for (number, decl) in decls.into_iter().enumerate() {
+        for decl in decls {
             let type_ = self.declared_type(&decl, def.scope)?;
-            self.append(&mut layout, decl, number, type_, def.scope)?;
+            self.append(&mut layout, decl, type_, def.scope)?;
         }
         if def.node.is_union() { self.overlaid(layout, def.item) } else { Ok(layout) }
     }
@@ -134,18 +134,11 @@ impl<'c> Elaborator<'c> {
             .help("give it a stub in the configuration, or add its library to the tree")
     }
 
-    fn append(
-        &mut self,
-        layout: &mut Layout<'c>,
-        decl: Decl<'c>,
-        number: usize,
-        type_: Type,
-        owner: ItemId,
-    ) -> Lowered<()> {
+    fn append(&mut self, layout: &mut Layout<'c>, decl: Decl<'c>, type_: Type, owner: ItemId) -> Lowered<()> {
         let size = self.size(&type_, decl.var)?;
         let (name, key) = (decl.name.to_owned(), fold(decl.name));
         let (offset, section) = (layout.size, decl.section);
-        layout.fields.push(Field { key, name, type_, offset, section, owner, decl: Some(decl), number });
+        layout.fields.push(Field { key, name, type_, offset, section, owner, decl: Some(decl) });
         layout.size = self.grown(layout.size, size, owner)?;
         Ok(())
     }
@@ -153,16 +146,7 @@ impl<'c> Elaborator<'c> {
     /// A slot that no text names.
     fn append_hidden(layout: &mut Layout<'c>, key: String, type_: Type, owner: ItemId) {
         let (name, offset) = (key.clone(), layout.size);
-        layout.fields.push(Field {
-            key,
-            name,
-            type_,
-            offset,
-            section: Section::Var,
-            owner,
-            decl: None,
-            number: usize::MAX,
-        });
+        layout.fields.push(Field { key, name, type_, offset, section: Section::Var, owner, decl: None });
         layout.size += 1;
     }
 
@@ -192,7 +176,7 @@ impl<'c> Elaborator<'c> {
                 continue;
             }
             let type_ = self.type_of(item, number)?;
-            self.append(&mut layout, *decl, number, type_, item)?;
+            self.append(&mut layout, *decl, type_, item)?;
             if decl.edge.is_some() {
                 let key = fold(decl.name);
                 Self::append_hidden(&mut layout, edge_key(&key), Type::Scalar(Scalar::Bool), item);
@@ -215,7 +199,7 @@ impl<'c> Elaborator<'c> {
             for (number, decl) in self.decls(method).iter().enumerate() {
                 if decl.section == Section::Inst {
                     let type_ = self.type_of(method, number)?;
-                    self.append(layout, *decl, number, type_, method)?;
+                    self.append(layout, *decl, type_, method)?;
                     if let Some(last) = layout.fields.last_mut() {
                         last.key = instance_key(&self.world.item(method).name, decl.name);
                     }

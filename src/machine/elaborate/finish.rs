@@ -1,6 +1,6 @@
 //! The end: what globals are for, the classes of calls through references, no recursion; then the program is put together.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::access::Spot;
 use super::memory::at;
@@ -175,6 +175,7 @@ impl Elaborator<'_> {
         if !self.errors.is_empty() {
             return Err(self.all_errors());
         }
+        let enumerations = self.enumerations(&variables)?;
         self.instances.sort_unstable();
         self.clocks.sort_unstable();
         let own: Vec<ItemId> = self.cone.iter().copied().filter(|id| self.world.is_own(*id)).collect();
@@ -191,6 +192,7 @@ impl Elaborator<'_> {
             cycle_time: self.options.cycle_time,
             assumptions: self.assumptions.into_iter().collect(),
             cone: own,
+            enumerations,
             variables,
         })
     }
@@ -221,6 +223,17 @@ impl Elaborator<'_> {
             let spot = Spot { location: at(global.slot), type_: global.type_, constant: global.constant };
             self.name_variables(&global.path, &spot, role, variables);
         }
+    }
+
+    /// The values, as bits, of the enumerations that variables have.
+    fn enumerations(&mut self, variables: &[NamedVariable]) -> Result<BTreeMap<ItemId, Vec<u64>>, Vec<Unsupported>> {
+        let mut found = BTreeMap::new();
+        for variable in variables {
+            let Some(item) = variable.enumeration.filter(|item| !found.contains_key(item)) else { continue };
+            let values = self.enum_values(item).map_err(|error| vec![error])?;
+            found.insert(item, values.iter().map(|(_, number)| variable.scalar.bits(*number)).collect());
+        }
+        Ok(found)
     }
 
     fn has_instance(&self, range: std::ops::Range<u32>) -> bool {

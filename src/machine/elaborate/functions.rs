@@ -94,7 +94,11 @@ impl<'c> Elaborator<'c> {
                     })?,
                 (ArgumentKind::Positional, _) => n,
                 _ => {
-                    return Err(self.unsupported("types that do not fit", node, format!("`{function}` has no outputs")));
+                    return Err(self.unsupported(
+                        "types that do not fit",
+                        node,
+                        format!("`{function}` has no outputs"),
+                    ));
                 }
             };
             found.push((position, value));

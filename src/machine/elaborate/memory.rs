@@ -2,8 +2,8 @@
 
 use super::classes::layout_key;
 use super::world::Decl;
-use super::{Elaborator, Lowered, Unsupported};
-use crate::library::ItemId;
+use super::{Elaborator, Lowered, Stub, Unsupported};
+use crate::library::{ItemId, Section};
 use crate::machine::program::{Base, Location, Role, Slot, SlotId};
 use crate::semantics::scalar::Scalar;
 use crate::semantics::typing::Type;
@@ -95,6 +95,7 @@ impl<'c> Elaborator<'c> {
 
     fn put_fields(&mut self, type_: &Type, values: &[u64], placement: &Placement) -> Lowered<()> {
         let Some(layout) = self.layout_of(type_)? else { return Ok(()) };
+        let arbitrary = self.is_arbitrary(type_);
         let mut last = None;
         for field in &layout.fields {
             // The members of a union are one slot.
@@ -107,7 +108,11 @@ impl<'c> Elaborator<'c> {
             let part = values.get(from..from + size).unwrap_or_default();
             let name = format!("{}.{}", placement.name, field.name);
             let constant = field.decl.is_some_and(|decl| decl.constant);
-            let role = if constant { Role::Constant } else { placement.role };
+            let role = match field.section {
+                _ if constant => Role::Constant,
+                Section::Output if arbitrary => Role::Arbitrary,
+                _ => placement.role,
+            };
             let slot = self.slots.len();
             self.put_parts(&field.type_, part, &Placement { name, role, place: placement.place })?;
             if field.decl.is_some_and(|decl| decl.has_attribute("rungbook.elapsed")) {
@@ -115,6 +120,23 @@ impl<'c> Elaborator<'c> {
             }
         }
         Ok(())
+    }
+
+    /// Whether an instance is one of a stub whose outputs have any value.
+    fn is_arbitrary(&mut self, type_: &Type) -> bool {
+        let Type::Instance { item, .. } = type_ else { return false };
+        self.stub(*item).is_some_and(|stub| stub.arbitrary)
+    }
+
+    /// The stub that stands for an item, which is assumed from now on.
+    pub(super) fn stub(&mut self, item: ItemId) -> Option<&'c Stub> {
+        let stub = self.options.stubs.get(self.world.stub(item)?)?;
+        let name = &self.world.item(self.owner(item)).name;
+        self.assumptions.insert(match stub.arbitrary {
+            true => format!("the outputs of `{name}` are arbitrary"),
+            false => format!("`{name}` is a stub"),
+        });
+        Some(stub)
     }
 
     /// A variable to which the cycle time is added in each cycle.

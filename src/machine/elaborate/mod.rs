@@ -24,7 +24,7 @@ mod operators;
 mod pointers;
 mod routines;
 mod sfc;
-pub mod shelf;
+mod shelf;
 mod statements;
 mod texts;
 mod types;
@@ -35,7 +35,6 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::rc::Rc;
 
 use super::program::{Program, Routine, RoutineId, Slot, SlotId, Statement};
-use super::standard;
 use crate::library::names::Names;
 use crate::library::{Catalogue, ItemId};
 use crate::semantics::typing::{Operand, Type, TypeError};
@@ -129,7 +128,7 @@ pub fn elaborate(
 ) -> Result<Program, Vec<Unsupported>> {
     let texts = options.stubs.iter().map(|stub| ("stub", stub.text.as_str()));
     let stubs = Shelf::parse(texts);
-    let standard = standard::shelf();
+    let standard = shelf::standard();
     let parts = [(catalogue, names), (&stubs.catalogue, &stubs.names), (&standard.catalogue, &standard.names)];
     let world = World::new(&parts, &options.symbols);
     let mut elaborator = Elaborator::new(world, options);

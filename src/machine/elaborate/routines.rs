@@ -165,6 +165,9 @@ impl<'c> Elaborator<'c> {
                 }
             }
         }
+        if self.stub(item).is_some_and(|stub| stub.arbitrary) {
+            return Ok(());
+        }
         match self.world.code(item) {
             Code::Empty => Ok(()),
             Code::Other(what) => {
@@ -284,14 +287,18 @@ impl<'c> Elaborator<'c> {
         let type_ = self.resolve(type_, typed)?;
         let values = self.defaults(&type_)?.values;
         let name = fold(&self.world.item(typed).name);
-        let placement = Placement { name: prefix.to_owned(), role: Role::Temporary, place: self.world.place_of(typed) };
+        let arbitrary = self.stub(item).is_some_and(|stub| stub.arbitrary);
+        let role = if arbitrary { Role::Arbitrary } else { Role::Temporary };
+        let placement = Placement { name: prefix.to_owned(), role, place: self.world.place_of(typed) };
         let slot = self.put(&type_, &values, &placement)?;
         let spot = Spot { location: at(slot), type_, constant: false };
         frame.variables.entry(name.clone()).or_insert_with(|| spot.clone());
         if declared.kind == ItemKind::Setter {
             frame.parameters.push(Parameter { key: name, section: Section::Input, spot, has_initial: false });
         } else {
-            frame.locals.push((slot, u32::try_from(values.len()).unwrap_or(u32::MAX)));
+            if !arbitrary {
+                frame.locals.push((slot, u32::try_from(values.len()).unwrap_or(u32::MAX)));
+            }
             frame.result = Some(spot);
         }
         Ok(())

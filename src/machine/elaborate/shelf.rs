@@ -1,24 +1,31 @@
 //! A library that the tool brings along: the standard blocks, and the stubs of the configuration.
 
+use std::sync::OnceLock;
+
 use crate::library::names::Names;
 use crate::library::{Catalogue, Library, LibraryId, lower, resolve};
 use crate::text::{Body, Encoding, Files, Fragment, Object, ObjectKind, Span, Unit, Vendor};
 
 /// A catalogue with its names.
 #[derive(Debug)]
-pub struct Shelf {
+pub(super) struct Shelf {
     /// What it declares.
-    pub catalogue: Catalogue,
+    pub(super) catalogue: Catalogue,
     /// What names mean in it.
-    pub names: Names,
+    pub(super) names: Names,
     /// What is wrong with its text, in the order of the texts.
-    pub faults: Vec<String>,
+    pub(super) faults: Vec<String>,
+}
+
+/// The standard blocks, parsed once.
+pub(super) fn standard() -> &'static Shelf {
+    static SHELF: OnceLock<Shelf> = OnceLock::new();
+    SHELF.get_or_init(|| Shelf::parse(crate::machine::standard::SOURCES.iter().copied()))
 }
 
 impl Shelf {
     /// The library that these texts declare, each with the name of its file.
-    #[must_use]
-    pub fn parse<'a>(texts: impl Iterator<Item = (&'a str, &'a str)>) -> Self {
+    pub(super) fn parse<'a>(texts: impl Iterator<Item = (&'a str, &'a str)>) -> Self {
         let mut files = Files::default();
         let mut units = Vec::new();
         for (path, text) in texts {

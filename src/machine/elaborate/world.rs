@@ -2,7 +2,6 @@
 //! and the way from an item to the nodes of its declaration and body.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
 
 use super::conditional::Excluded;
 use crate::library::names::{Found, Names, Scope, fold};
@@ -97,6 +96,13 @@ impl<'c> World<'c> {
     fn part(&self, id: ItemId) -> Part<'c> {
         let after = self.parts.partition_point(|part| part.first <= id.0);
         self.parts[after.saturating_sub(1)]
+    }
+
+    /// The number of the stub that declares the item.
+    pub(super) fn stub(&self, id: ItemId) -> Option<usize> {
+        let stubs = self.parts.get(1)?;
+        let is_stub = self.part(id).first == stubs.first && !stubs.catalogue.items.is_empty();
+        is_stub.then(|| self.item(id).place.file.0 as usize)
     }
 
     /// Whether the item belongs to the tree itself.
