@@ -5,6 +5,7 @@
 mod cli;
 mod corpora;
 mod docs;
+mod elaborate;
 mod evidence;
 mod fuzz;
 mod geteta;
