@@ -1,8 +1,8 @@
 //! How findings and totals are printed.
 
 mod annotations;
-pub(crate) mod findings;
 pub(crate) mod diff;
+pub(crate) mod findings;
 mod json;
 mod junit;
 mod markdown;
