@@ -13,6 +13,7 @@ use crate::cli::store::Store;
 use crate::cli::{Exit, Failure, print, say, stamp, tree};
 use crate::config::{ConfigFile, Settings};
 use crate::evidence::record::{Answer, Record};
+use crate::library::ItemKind;
 use crate::library::names::fold;
 use crate::pipeline::verify::Verified;
 use crate::pipeline::{self, Project, answer, records};
@@ -35,6 +36,9 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
     let mut job = job(args, &progress)?;
     if let Some(unit) = &args.unit {
         attach(&mut job.project, unit)?;
+    }
+    if job.store.is_none() {
+        attach_alone(&mut job.project);
     }
     let chosen = chosen(&job.project, args.table.as_deref())?;
     let done = decide(&job, &chosen, args, &progress)?;
@@ -117,6 +121,16 @@ fn attach(project: &mut Project, unit: &str) -> Result<(), Failure> {
     let id = found.ok_or_else(|| Failure(format!("no block is named `{unit}`")))?;
     project.tables.iter_mut().for_each(|table| table.item = Some(id));
     Ok(())
+}
+
+/// Binds tables that name no block to the only program of the files, or to their only block.
+fn attach_alone(project: &mut Project) {
+    let of = |kind: ItemKind| {
+        let mut found = project.catalogue.iter().filter(|(_, item)| item.kind == kind).map(|(id, _)| id);
+        found.next().filter(|_| found.next().is_none())
+    };
+    let alone = of(ItemKind::Program).or_else(|| of(ItemKind::FunctionBlock)).or_else(|| of(ItemKind::Function));
+    project.tables.iter_mut().filter(|table| table.item.is_none()).for_each(|table| table.item = alone);
 }
 
 /// The tables to decide.

@@ -13,7 +13,8 @@ use crate::text::Place;
 use crate::text::near::nearest;
 
 impl Binder<'_> {
-    /// What a path means, `ago` cycles before. `expected` is the type that it is compared with.
+    /// What a path means, `ago` cycles before. `expected` is the type that it is compared with: a value of an enumeration that
+    /// is expected hides a variable of its name and of another type.
     pub(super) fn name(
         &mut self,
         path: &Path,
@@ -21,6 +22,20 @@ impl Binder<'_> {
         expected: Option<&Type>,
         place: Place,
     ) -> Result<Operand<Leaf>> {
+        let found = self.meant(path, ago, expected, place);
+        if path.is_plain()
+            && ago == 0
+            && let Some(type_ @ Type::Enumeration { .. }) = expected
+            && let Ok(Operand::Typed(_, other)) = &found
+            && other != type_
+            && let Some(value) = self.enumerator(type_, &path.name, place)
+        {
+            return Ok(value);
+        }
+        found
+    }
+
+    fn meant(&mut self, path: &Path, ago: u32, expected: Option<&Type>, place: Place) -> Result<Operand<Leaf>> {
         if let Some(frame) = self.frames.last() {
             let input = frame.iter().find(|(name, _)| path.is_plain() && name.eq_ignore_ascii_case(&path.name));
             return match (input, path.steps.as_slice()) {
