@@ -5,7 +5,7 @@ use super::expressions::Val;
 use super::{Elaborator, Lowered};
 use crate::library::ItemKind;
 use crate::machine::program::{Location, Statement as Lowest, StatementKind, Text, TextOperation};
-use crate::semantics::expr::{Expr, Op};
+use crate::semantics::expr::{Expr, ExprKind, Op};
 use crate::semantics::scalar::Scalar;
 use crate::semantics::typing::convert::{assigned, logical};
 use crate::semantics::typing::types::is_whole;
@@ -174,6 +174,23 @@ impl<'c> Elaborator<'c> {
         }
     }
 
+    /// A constant duration where a whole number is needed, as number of cycles: blocks that count cycles are written so for
+    /// checkers that know no other time. The verdict says so.
+    fn counted_in_cycles(&mut self, operand: Operand<Location>, type_: &Type) -> Operand<Location> {
+        let Operand::Typed(Expr { kind: ExprKind::Const(bits), scalar: Scalar::Time(width), place }, _) = &operand else {
+            return operand;
+        };
+        let whole = matches!(type_.scalar(), Some(Scalar::Int { .. })) && matches!(type_, Type::Scalar(_));
+        let nanos = if *width == 32 { bits.saturating_mul(1_000_000) } else { *bits };
+        let cycle = self.options.cycle_time;
+        if !whole || cycle == 0 || nanos % cycle != 0 {
+            return operand;
+        }
+        let count = nanos / cycle;
+        self.assumptions.insert(format!("a duration of {} ms as a number is {count} cycles", nanos / 1_000_000));
+        Operand::Integer(i128::from(count), *place)
+    }
+
     fn check_writable(&self, spot: &Spot, node: Node<'c>) -> Lowered<()> {
         if spot.constant {
             return Err(self.unsupported("an assignment to a constant", node, "an assignment to a constant"));
@@ -229,6 +246,7 @@ impl<'c> Elaborator<'c> {
             }
             (type_, Val::Scalar(operand)) if type_.scalar().is_some() => {
                 let place = self.place(node);
+                let operand = self.counted_in_cycles(operand, type_);
                 let value = assigned(operand.at(place), type_)?.expr;
                 self.emit(StatementKind::Assign { target, value, range: type_.range() });
             }
