@@ -7,6 +7,7 @@ pub mod build;
 pub mod certificate;
 pub mod cone;
 pub mod eval;
+pub mod hash;
 pub mod sat;
 pub mod simulate;
 pub mod system;
