@@ -9,6 +9,7 @@ pub mod cone;
 pub mod eval;
 pub mod hash;
 pub mod sat;
+pub mod simplify;
 pub mod simulate;
 pub mod system;
 pub mod term;
