@@ -6,7 +6,7 @@
 //! truncates toward zero; and those of IEEE 754 binary32 and binary64 on the bits of the numbers, rounding to nearest, ties
 //! to even.
 
-use std::collections::HashMap;
+use super::hash::FastMap;
 
 /// A term of a [`Pool`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -119,7 +119,7 @@ pub enum Node {
 #[derive(Clone, Debug, Default)]
 pub struct Pool {
     nodes: Vec<(Node, u32)>,
-    index: HashMap<(Node, u32), Term>,
+    index: FastMap<(Node, u32), Term>,
     variables: Vec<(Term, String)>,
 }
 

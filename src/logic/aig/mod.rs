@@ -1,10 +1,20 @@
 //! And-inverter graphs with structural hashing, and transition systems over them: what engines work on.
 
+mod constants;
+mod correspond;
+mod reduce;
 mod simulate;
+mod sweep;
+#[cfg(test)]
+mod tests;
 
-use std::collections::HashMap;
+pub use constants::constants;
+pub use correspond::correspond;
+pub use reduce::{LatchClause, Reduced, cone};
+pub use simulate::{BitSnapshot, Random, Trace, word};
+pub use sweep::sweep;
 
-pub use simulate::{BitSnapshot, Trace, word};
+use super::hash::FastMap;
 
 /// An edge to a node, perhaps inverted: twice the node's number, plus one where it is inverted. As in AIGER.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -63,12 +73,12 @@ pub enum Gate {
 #[derive(Clone, Debug)]
 pub struct Aig {
     gates: Vec<Gate>,
-    index: HashMap<(Lit, Lit), u32>,
+    index: FastMap<(Lit, Lit), u32>,
 }
 
 impl Default for Aig {
     fn default() -> Self {
-        Self { gates: vec![Gate::False], index: HashMap::new() }
+        Self { gates: vec![Gate::False], index: FastMap::default() }
     }
 }
 

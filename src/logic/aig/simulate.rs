@@ -67,3 +67,24 @@ impl Model {
         run
     }
 }
+
+/// Random words, the same ones each time: xorshift64* (Vigna, *An Experimental Exploration of Marsaglia's xorshift
+/// Generators, Scrambled*, 2016).
+#[derive(Clone, Debug)]
+pub struct Random(u64);
+
+impl Default for Random {
+    fn default() -> Self {
+        Self(0x9e37_79b9_7f4a_7c15)
+    }
+}
+
+impl Random {
+    /// The next word.
+    pub fn word(&mut self) -> u64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
+    }
+}

@@ -17,7 +17,6 @@ use super::certificate::StateBit;
 use super::simulate::Stimulus;
 use super::system::{Labelled, System};
 use super::term::Term;
-pub use project::LatchClause;
 pub use term::Blaster;
 
 /// What a latch stands for.

@@ -1,10 +1,8 @@
 //! Clauses over the model's latches as clauses over the bits of state variables.
 
 use super::{Blasted, LatchBit};
+use crate::logic::aig::LatchClause;
 use crate::logic::certificate::StateBit;
-
-/// A clause over latches: their indices, each with the value that satisfies.
-pub type LatchClause = Vec<(usize, bool)>;
 
 impl Blasted {
     /// The clauses of an invariant, over the bits of state variables.
