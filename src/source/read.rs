@@ -92,7 +92,8 @@ fn choose(path: &str) -> Choice {
 /// Whether `path` is a file of test tables by its name.
 #[must_use]
 fn is_table(path: &str) -> bool {
-    const ENDS: [&str; 7] = [".gtt", ".gtt.md", ".gtt.txt", ".gtt.xlsx", ".gtt.ods", ".gtt.csv", ".tt.txt"];
+    const ENDS: [&str; 9] =
+        [".gtt", ".gtt.md", ".gtt.txt", ".gtt.xlsx", ".gtt.xls", ".gtt.ods", ".gtt.csv", ".gtt.xml", ".tt.txt"];
     let name = paths::name(path).to_ascii_lowercase();
     ENDS.iter().any(|end| name.ends_with(end) && name.len() > end.len())
 }

@@ -44,6 +44,14 @@ impl Binder<'_> {
                 _ => Err(self.unknown(path, place)),
             };
         }
+        // Compared with an enumeration, a name is one of its values, also where a variable of another type has it.
+        if let Some(type_ @ Type::Enumeration { .. }) = expected
+            && path.is_plain()
+            && self.table.global(&path.name).is_none()
+            && let Some(value) = self.enumerator(type_, &path.name, place)
+        {
+            return Ok(value);
+        }
         if path.is_plain()
             && let Some(found) = self.global_or_column(path, ago, place)?
         {
@@ -216,7 +224,9 @@ impl Binder<'_> {
         let unit = &self.catalogue.item(self.unit).name;
         let message = format!("`{unit}` has no variable `{}`", print::path(path));
         let mut stop = stop(&codes::TABLE_UNKNOWN_NAME, place, message);
-        let near = nearest(&path.name, self.candidates().into_iter());
+        // A column may have the very name that its variable should have.
+        let others = self.candidates().into_iter().filter(|name| !name.eq_ignore_ascii_case(&path.name));
+        let near = nearest(&path.name, others);
         stop.finding.help.extend(near.map(|near| format!("`{near}` is the nearest name")));
         stop
     }

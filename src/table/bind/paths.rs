@@ -7,9 +7,10 @@ use crate::library::names::Found;
 use crate::library::{ItemId, ItemKind, Section};
 use crate::semantics::expr::{Expr, ExprKind, Op};
 use crate::semantics::typing::types::{self, BOOL};
-use crate::semantics::typing::{Operand, Type, constant};
+use crate::semantics::typing::{Operand, Type, constant, convert};
 use crate::table::cell::ast::{Path, Step};
-use crate::table::codes;
+use crate::table::piece::Piece;
+use crate::table::{cell, codes};
 use crate::text::Place;
 use crate::text::near::nearest;
 
@@ -38,6 +39,11 @@ impl Binder<'_> {
     /// none of a variable.
     pub(super) fn variable(&mut self, path: &Path, ago: u32, place: Place) -> Result<Option<Operand<Leaf>>> {
         let Some((mut way, rest)) = self.start(path, place)? else { return Ok(None) };
+        if rest.is_empty()
+            && let Some(constant) = self.constant_variable(&way, place)
+        {
+            return Ok(Some(constant));
+        }
         for (at, step) in rest.iter().enumerate() {
             if at + 1 == rest.len()
                 && let (Step::Member(bit), Shape::Scalar(type_)) = (step, &way.shape)
@@ -50,6 +56,26 @@ impl Binder<'_> {
         }
         let Shape::Scalar(type_) = way.shape.clone() else { return Err(self.no_scalar(&way, place)) };
         Ok(Some(self.read(&way, type_, ago, place)))
+    }
+
+    /// The value of a variable that is declared as a constant, where its initial value is an expression over such.
+    fn constant_variable(&mut self, way: &Way, place: Place) -> Option<Operand<Leaf>> {
+        let variable =
+            self.catalogue.item(way.root.0).variables.get(way.root.1).filter(|variable| variable.constant)?;
+        let Shape::Scalar(type_) = &way.shape else { return None };
+        // A constant that is made of itself has no value.
+        if self.calls.contains(&way.text) {
+            return None;
+        }
+        let text = variable.initial.as_deref()?;
+        let piece = Piece::verbatim(place.file, text, 0);
+        let expr = cell::parse_expression(&piece, &cell::Context::default()).ok()?;
+        self.calls.push(way.text.clone());
+        let value = self.operand(&expr, None, Some(type_), place.file);
+        self.calls.pop();
+        let converted = convert::assigned(value.ok()?, type_).ok()?;
+        let is_constant = matches!(converted.expr.kind, ExprKind::Const(_));
+        is_constant.then(|| Operand::Typed(Expr { place: Some(place), ..converted.expr }, type_.clone()))
     }
 
     fn read(&mut self, way: &Way, type_: Type, ago: u32, place: Place) -> Operand<Leaf> {
