@@ -219,6 +219,74 @@
     });
   }
 
+  // --- Stepping through a run that violates a table: table, diagram and executed lines move together ---------------
+
+  function setUpRun(run) {
+    var steps = run.querySelector(".run-steps");
+    var first = Number(run.dataset.first);
+    var last = Number(run.dataset.last);
+    var edges = run.dataset.edges.split(" ").map(Number);
+    var svg = run.querySelector(".drawing-box svg");
+    var table = run.parentElement.querySelector("table.gtt");
+    var cursor = null;
+    if (svg) {
+      cursor = document.createElementNS("http://www.w3.org/2000/svg", "rect");
+      cursor.setAttribute("class", "run-cursor");
+      cursor.setAttribute("y", "0");
+      cursor.setAttribute("height", "100%");
+      svg.appendChild(cursor);
+    }
+    var now = last;
+
+    function show(cycle, move) {
+      now = Math.min(last, Math.max(first, cycle));
+      steps.querySelector("output").textContent = "cycle " + now + " of " + last;
+      steps.querySelector("[data-step='-1']").disabled = now === first;
+      steps.querySelector("[data-step='1']").disabled = now === last;
+      var rows = [];
+      run.querySelectorAll(".run-cycles tr[data-cycle]").forEach(function (row) {
+        var current = Number(row.dataset.cycle) === now;
+        row.classList.toggle("current", current);
+        if (current) {
+          rows = row.dataset.rows.split(", ");
+          if (move) row.scrollIntoView({ block: "nearest" });
+        }
+      });
+      run.querySelectorAll(".run-lines").forEach(function (lines) {
+        lines.hidden = Number(lines.dataset.cycle) !== now;
+        lines.open = !lines.hidden;
+      });
+      if (table) {
+        table.querySelectorAll("tbody tr[data-seq]").forEach(function (row) {
+          row.classList.toggle("current", rows.indexOf(row.dataset.seq) >= 0);
+        });
+      }
+      if (cursor) {
+        cursor.setAttribute("x", edges[now - first]);
+        cursor.setAttribute("width", Math.max(1, edges[now - first + 1] - edges[now - first]));
+      }
+    }
+
+    steps.addEventListener("click", function (event) {
+      var button = event.target.closest("button[data-step]");
+      if (button) show(now + Number(button.dataset.step), true);
+    });
+    run.addEventListener("keydown", function (event) {
+      if (event.altKey || event.ctrlKey || event.metaKey) return;
+      if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
+        show(now + (event.key === "ArrowLeft" ? -1 : 1), true);
+        event.preventDefault();
+      }
+    });
+    run.querySelector(".run-cycles").addEventListener("click", function (event) {
+      var row = event.target.closest("tr[data-cycle]");
+      if (row) show(Number(row.dataset.cycle), false);
+    });
+    steps.hidden = false;
+    show(last, false);
+  }
+
+  document.querySelectorAll("section.run").forEach(setUpRun);
   setUpLines();
   setUpTheme();
   setUpMenu();

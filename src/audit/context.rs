@@ -1,6 +1,7 @@
 //! What rules look at.
 
 use crate::docs::{Docs, Entry};
+use crate::evidence::record::Answer;
 use crate::library::{Access, Catalogue, Item, ItemId, ItemKind, Section};
 use crate::table::AttachedTable;
 
@@ -13,6 +14,8 @@ pub struct Context<'a> {
     pub docs: &'a Docs,
     /// The test tables, with the items that they belong to.
     pub tables: &'a [AttachedTable],
+    /// What is known of each table, in their order; empty before anybody asked.
+    pub answers: &'a [Answer],
 }
 
 impl<'a> Context<'a> {

@@ -33,6 +33,7 @@ pub static RULES: &[Rule] = &[
     rules::unknown_parameter::RULE,
     rules::unread_body::RULE,
     rules::unverified_table::RULE,
+    rules::violated_table::RULE,
 ];
 
 /// Every code of every room, by name.

@@ -34,8 +34,7 @@ const LIMITS: (usize, usize) = (8, 16);
 #[must_use]
 pub fn draw(timing: &Timing) -> Drawing {
     let axis = Axis::new(&timing.lanes, LIMITS.0, LIMITS.1);
-    let names = timing.lanes.iter().map(|lane| cells(&lane.name)).max().unwrap_or(0);
-    let left = length(names) * CHARACTER + 12.0;
+    let left = left(timing);
     let x = |cycle: usize| left + length(axis.column(cycle)) * COLUMN;
     let bottom = RULER + length(timing.lanes.len()) * LANE;
     let mut shapes = Vec::new();
@@ -55,6 +54,20 @@ pub fn draw(timing: &Timing) -> Drawing {
     let cycles = axis_end(&timing.lanes);
     let alt = format!("Timing diagram of {}: {} signals over {cycles} cycles", timing.name, timing.lanes.len());
     Drawing { width: x(cycles) + 4.0, height: bottom + 4.0, alt, shapes }
+}
+
+/// Where each cycle begins in the drawing, and where the last one ends.
+#[must_use]
+pub fn edges(timing: &Timing) -> Vec<f64> {
+    let axis = Axis::new(&timing.lanes, LIMITS.0, LIMITS.1);
+    let left = left(timing);
+    (0..=axis_end(&timing.lanes)).map(|cycle| left + length(axis.column(cycle)) * COLUMN).collect()
+}
+
+/// The room for the names.
+fn left(timing: &Timing) -> f64 {
+    let names = timing.lanes.iter().map(|lane| cells(&lane.name)).max().unwrap_or(0);
+    length(names) * CHARACTER + 12.0
 }
 
 #[expect(clippy::cast_precision_loss, reason = "columns and lanes are far below 2^52")]

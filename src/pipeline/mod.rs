@@ -30,7 +30,7 @@ use crate::source::FileSystem;
 use crate::table::AttachedTable;
 use crate::text::Files;
 
-pub use read::read;
+pub use read::{know, read};
 
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,6 +108,8 @@ pub struct Project {
     pub skipped: Vec<(String, String)>,
     /// How many files are no PLC source.
     pub other_files: usize,
+    /// What is known of each table, in their order; empty where nobody asked.
+    pub answers: Vec<crate::evidence::record::Answer>,
     /// How its tables are proven.
     pub asked: Asked,
     /// The narrative pages.
@@ -168,6 +170,7 @@ pub fn book(project: &Project, settings: &Settings, stamp: &Stamp) -> Book {
         relations: &project.relations,
         docs: &project.docs,
         tables: &project.tables,
+        answers: &project.answers,
         findings: &project.findings,
         skipped: &project.skipped,
         narratives: &project.narratives,

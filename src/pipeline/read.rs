@@ -28,7 +28,7 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
     findings.extend(tables.findings);
 
     events(Event::Stage { name: "audit", total: 0 });
-    let context = Context { catalogue: &catalogue, docs: &docs, tables: &tables.tables };
+    let context = Context { catalogue: &catalogue, docs: &docs, tables: &tables.tables, answers: &[] };
     findings.extend(audit::check(&context, |code, default| settings.levels.runs(code, default)));
     let findings = in_order(findings, settings);
 
@@ -47,10 +47,29 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
         beside: super::evidence::Beside::default(),
         skipped,
         other_files,
+        answers: Vec::new(),
         asked: asked(fs, settings),
         narratives: overrides::narratives(fs, &settings.manual),
         overrides: overrides::read(fs),
     }
+}
+
+/// Takes what is known of each table, and lets the rules about verdicts speak again.
+pub fn know(project: &mut Project, settings: &Settings, answers: Vec<crate::evidence::record::Answer>) {
+    use crate::audit::rules::{unverified_table, violated_table};
+    let about = |name: &str| name == unverified_table::CODE.name || name == violated_table::CODE.name;
+    project.answers = answers;
+    let Project { catalogue, docs, tables, answers, .. } = project;
+    let context = Context { catalogue, docs, tables, answers };
+    let new = audit::check(&context, |code, default| about(code) && settings.levels.runs(code, default));
+    let mut findings = std::mem::take(&mut project.findings);
+    findings.retain(|finding| !about(finding.code.name));
+    // Those that are kept have their configured severities already, and keep them.
+    let allowed = |one: &Finding| {
+        project.allowed.iter().any(|a| a.finding.code.name == one.code.name && a.finding.place == one.place)
+    };
+    findings.extend(new.into_iter().filter(|one| !allowed(one)));
+    project.findings = in_order(findings, settings);
 }
 
 /// What is asked of proofs; a stub whose file cannot be read is left out, and what needs it is *unsupported*.

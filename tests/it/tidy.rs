@@ -22,7 +22,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("semantics", &["library", "syntax", "logic"]),
     ("table", &["library", "syntax", "logic", "semantics"]),
     ("machine", &["library", "syntax", "logic", "semantics"]),
-    ("prove", &["machine", "table", "logic", "semantics"]),
+    ("prove", &["machine", "table", "logic", "semantics", "library"]),
     ("recheck", &["machine", "table", "logic", "semantics"]),
     ("evidence", &["table", "library", "syntax"]),
     ("audit", &["library", "docs", "table", "source", "syntax", "evidence"]),

@@ -10,3 +10,4 @@ pub mod undocumented_member;
 pub mod unknown_parameter;
 pub mod unread_body;
 pub mod unverified_table;
+pub mod violated_table;

@@ -16,11 +16,13 @@
 //!
 //! ## What to do
 //!
-//! Prove it, or set `unverified-table = "off"` under `[audit.rules]` while the tables are still being
+//! `rungbook verify` decides it; the verdict is kept in the store, and `build` and `check` know it from then on. A block or
+//! table that has changed since makes it *stale*. Or set `unverified-table = "off"` under `[audit.rules]` while the tables are still being
 //! written.
 
 use crate::audit::{Context, Rule};
 use crate::diagnostic::{Code, Finding, Severity};
+use crate::evidence::record::Verdict;
 
 /// The code.
 pub static CODE: Code =
@@ -30,8 +32,14 @@ pub static CODE: Code =
 pub const RULE: Rule = Rule { code: &CODE, default: true, check };
 
 fn check(context: &Context<'_>, out: &mut Vec<Finding>) {
-    for table in context.tables {
-        let message = format!("test table `{}` is unverified", table.table.name);
-        out.push(Finding::new(&CODE, table.table.place, message));
+    for (index, table) in context.tables.iter().enumerate() {
+        let verdict = context.answers.get(index).map_or(&Verdict::Unverified, |answer| &answer.verdict);
+        if matches!(verdict, Verdict::Verified | Verdict::Violated) {
+            continue;
+        }
+        let message = format!("test table `{}` is {}", table.table.name, verdict.word());
+        let finding = Finding::new(&CODE, table.table.place, message);
+        let detail = verdict.detail();
+        out.push(if detail.is_empty() { finding } else { finding.help(detail) });
     }
 }

@@ -65,7 +65,7 @@ fn count(context: &Context<'_>, id: ItemId) -> CoverageRow {
     let own = |i: &&usize| context.input.tables[**i].item == Some(id);
     let tables: Vec<&usize> =
         context.tables.get(&context.catalogue().top(id)).into_iter().flatten().filter(own).collect();
-    let verified = tables.iter().filter(|i| tables::verdict(&context.input.tables[***i]).key == "verified").count();
+    let verified = tables.iter().filter(|i| tables::known(context, ***i).key == "verified").count();
     CoverageRow {
         entities: 1,
         documented: usize::from(is_documented(context, id)),
@@ -113,7 +113,7 @@ fn holes(context: &Context<'_>, id: ItemId, coverage: &mut Coverage) {
     }
     for i in context.tables.get(&context.catalogue().top(id)).into_iter().flatten() {
         let table = &context.input.tables[*i];
-        if table.item == Some(id) && tables::verdict(table).key != "verified" {
+        if table.item == Some(id) && tables::known(context, *i).key != "verified" {
             let at = context.input.files.line_column(table.table.place);
             let mut hole = hole(&format!("test table {}", table.table.name));
             hole.file.clone_from(&context.input.files.get(table.table.place.file).path);

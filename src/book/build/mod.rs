@@ -10,6 +10,7 @@ mod lists;
 mod narrative;
 mod prose;
 mod relations;
+mod run;
 mod signature;
 mod sources;
 mod tables;
@@ -23,6 +24,7 @@ use super::view::entity::EntityView;
 use super::view::{Book, Front, Totals};
 use crate::diagnostic::{Finding, Severity};
 use crate::docs::{Docs, Narrator};
+use crate::evidence::record::Answer;
 use crate::library::names::Names;
 use crate::library::relations::Relations;
 use crate::library::{Catalogue, ItemId, ItemKind};
@@ -51,6 +53,8 @@ pub struct Input<'a> {
     pub docs: &'a Docs,
     /// The test tables.
     pub tables: &'a [AttachedTable],
+    /// What is known of each table, in their order.
+    pub answers: &'a [Answer],
     /// All findings, by file and place.
     pub findings: &'a [Finding],
     /// Files that should be here and are not: path and reason.
@@ -146,8 +150,8 @@ fn order(catalogue: &Catalogue) -> Vec<ItemId> {
 fn totals(input: &Input<'_>, all: &super::view::coverage::CoverageRow) -> Totals {
     let count = |severity| input.findings.iter().filter(|finding| finding.severity == severity).count();
     let mut verdicts: Vec<(String, usize)> = Vec::new();
-    for table in input.tables {
-        let key = tables::verdict(table).key;
+    for (index, table) in input.tables.iter().enumerate() {
+        let key = tables::verdict(table, input.answers.get(index)).key;
         match verdicts.iter_mut().find(|(name, _)| name == key) {
             Some((_, n)) => *n += 1,
             None => verdicts.push((key.to_owned(), 1)),

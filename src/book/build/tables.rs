@@ -4,6 +4,7 @@ use super::address::slug;
 use super::{Context, prose};
 use crate::book::view::prose::{Block, Inline};
 use crate::book::view::table::{BracketView, CellView, ColumnView, RowView, TableView, VerdictView};
+use crate::evidence::record::{Answer, Verdict};
 use crate::library::ItemId;
 use crate::table::explain;
 use crate::table::layout::{self, DurationText, Layout, Role};
@@ -13,20 +14,67 @@ use crate::table::{AttachedTable, Table};
 /// The tables of a top-level item and of its members.
 pub(crate) fn of(context: &Context<'_>, top: ItemId) -> Vec<TableView> {
     let own = context.tables.get(&top).into_iter().flatten();
-    own.enumerate().map(|(n, i)| view(context, top, &context.input.tables[*i], n)).collect()
+    own.enumerate()
+        .map(|(n, i)| view(context, top, &context.input.tables[*i], n, context.input.answers.get(*i)))
+        .collect()
+}
+
+/// What is known of the table with this index.
+pub(crate) fn known(context: &Context<'_>, index: usize) -> VerdictView {
+    verdict(&context.input.tables[index], context.input.answers.get(index))
 }
 
 /// What is known of a table.
-pub(crate) fn verdict(table: &AttachedTable) -> VerdictView {
+pub(crate) fn verdict(table: &AttachedTable, answer: Option<&Answer>) -> VerdictView {
     if table.table.has_errors() {
-        let note = "The table has errors; it gets no verdict.";
-        return VerdictView { key: "error", label: "error".to_owned(), note: note.to_owned() };
+        let note = "The table has errors; it gets no verdict.".to_owned();
+        return VerdictView { key: "error", label: "error".to_owned(), note, facts: Vec::new() };
     }
-    let note = "Nobody has proven that the block conforms to this table.";
-    VerdictView { key: "unverified", label: "unverified".to_owned(), note: note.to_owned() }
+    let verdict = answer.map_or(&Verdict::Unverified, |answer| &answer.verdict);
+    let note = match verdict {
+        Verdict::Verified => {
+            "Proven for runs of every length; the certificate was checked again by a second program.".to_owned()
+        }
+        Verdict::Violated => "This run violates the table; it was played again on the interpreter.".to_owned(),
+        Verdict::Unverified => "Nobody has proven that the block conforms to this table.".to_owned(),
+        Verdict::Bounded { cycles } => {
+            format!("No violation in the first {cycles} cycles; nothing is claimed beyond.")
+        }
+        Verdict::Stale { was, changed } => format!("It was {was}; changed since: {}.", changed.join(", ")),
+        Verdict::Unsupported { reasons } => format!("Not modelled: {}", reasons.join("; ")),
+        Verdict::Unusable { reasons } => format!("No verdict is possible: {}", reasons.join("; ")),
+    };
+    let facts = answer.map(facts_of).unwrap_or_default();
+    VerdictView { key: verdict.word(), label: verdict.word().to_owned(), note, facts }
 }
 
-fn view(context: &Context<'_>, top: ItemId, attached: &AttachedTable, n: usize) -> TableView {
+/// How a verdict was found, and what the proof covered.
+fn facts_of(answer: &Answer) -> Vec<(String, String)> {
+    let mut facts = Vec::new();
+    let mut push = |name: &str, value: String| facts.push((name.to_owned(), value));
+    if !answer.engine.is_empty() {
+        push("Engine", answer.engine.clone());
+    }
+    if let Some(reference) = answer.artefact.as_ref().map(crate::evidence::record::Artefact::reference) {
+        let hex = reference.digest.hex();
+        push("Evidence", format!("{} {}", reference.kind.folder().trim_end_matches('s'), &hex[..12.min(hex.len())]));
+    }
+    if let Some(coverage) = &answer.coverage {
+        let ratio = |ratio: crate::evidence::record::Ratio| format!("{} of {}", ratio.hit, ratio.total);
+        push("Rows reached", ratio(coverage.rows));
+        push("Statements executed", ratio(coverage.statements));
+        push("Branches taken", ratio(coverage.branches));
+        if let Some(mutants) = coverage.mutants {
+            push("Mutants caught", ratio(mutants));
+        }
+        if !coverage.free_outputs.is_empty() {
+            push("Outputs never constrained", coverage.free_outputs.join(", "));
+        }
+    }
+    facts
+}
+
+fn view(context: &Context<'_>, top: ItemId, attached: &AttachedTable, n: usize, answer: Option<&Answer>) -> TableView {
     let table = &attached.table;
     let layout = layout::layout(table);
     let at = context.input.files.line_column(table.place);
@@ -37,7 +85,10 @@ fn view(context: &Context<'_>, top: ItemId, attached: &AttachedTable, n: usize) 
         anchor,
         file: context.input.files.get(table.place.file).path.clone(),
         line: at.line,
-        verdict: verdict(attached),
+        verdict: verdict(attached, answer),
+        run: answer
+            .and_then(|answer| answer.artefact.as_ref())
+            .and_then(|artefact| super::run::view(context, &table.name, &artefact.value)),
         facts: facts(table, &layout),
         remark: Vec::new(),
         columns: columns(&layout),

@@ -4,6 +4,7 @@ pub mod coverage;
 pub mod entity;
 pub mod finding;
 pub mod prose;
+pub mod run;
 pub mod table;
 
 use serde::Serialize;

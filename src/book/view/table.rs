@@ -31,17 +31,21 @@ pub struct TableView {
     pub brackets: Vec<BracketView>,
     /// Messages of the findings in it.
     pub errors: Vec<String>,
+    /// The run that violates it.
+    pub run: Option<super::run::RunView>,
 }
 
 /// A verdict as pages show it.
 #[derive(Clone, Debug, Serialize)]
 pub struct VerdictView {
-    /// `verified`, `violated`, `bounded`, `unsupported`, `stale`, `unverified`, `error`.
+    /// `verified`, `violated`, `bounded`, `unsupported`, `unusable`, `stale`, `unverified`, `error`.
     pub key: &'static str,
     /// The word.
     pub label: String,
     /// What it means here, in a sentence.
     pub note: String,
+    /// What it rests on and how it was found: name and value.
+    pub facts: Vec<(String, String)>,
 }
 
 /// A column.

@@ -34,6 +34,8 @@ pub(crate) fn run(args: &BuildArgs) -> Result<Exit, Failure> {
     let (mut project, settings) = tree::read(&args.tree, Some(&output), &progress)?;
     let outputs = Outputs::new(args, &settings);
     let stamp = stamp::stamp(&dir);
+    let known = store::known(&dir, &project, &settings, &stamp)?;
+    pipeline::know(&mut project, &settings, known.into_iter().map(|(_, answer)| answer).collect());
     add_pages(args, &dir, &mut project, &settings, &stamp)?;
     progress.event(pipeline::Event::Stage { name: "book", total: 0 });
     let book = pipeline::book(&project, &settings, &stamp);

@@ -13,14 +13,17 @@ use crate::cli::{Exit, Failure, print, say, stamp, store, tree, write};
 use crate::config::Settings;
 use crate::diagnostic::{Finding, Severity};
 use crate::evidence::policy::baseline::Baseline;
+use crate::pipeline;
 use crate::text::Files;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let progress = Progress::new(args.tree.quiet);
     let dir = tree::folder(&args.tree.dir)?;
-    let (project, settings) = tree::read(&args.tree, None, &progress)?;
+    let (mut project, settings) = tree::read(&args.tree, None, &progress)?;
     let stamp = stamp::stamp(&dir);
     let records = store::known(&dir, &project, &settings, &stamp)?;
+    let answers = records.iter().map(|(_, answer)| answer.clone()).collect();
+    pipeline::know(&mut project, &settings, answers);
     let path = baseline_path(args, &dir, &settings);
     if args.write_baseline {
         return write_baseline(&path, &project, &stamp);

@@ -177,7 +177,8 @@ impl<'c> Elaborator<'c> {
     /// A constant duration where a whole number is needed, as number of cycles: blocks that count cycles are written so for
     /// checkers that know no other time. The verdict says so.
     fn counted_in_cycles(&mut self, operand: Operand<Location>, type_: &Type) -> Operand<Location> {
-        let Operand::Typed(Expr { kind: ExprKind::Const(bits), scalar: Scalar::Time(width), place }, _) = &operand else {
+        let Operand::Typed(Expr { kind: ExprKind::Const(bits), scalar: Scalar::Time(width), place }, _) = &operand
+        else {
             return operand;
         };
         let whole = matches!(type_.scalar(), Some(Scalar::Int { .. })) && matches!(type_, Type::Scalar(_));

@@ -13,6 +13,7 @@ mod highlight;
 mod listing;
 mod lists;
 mod prose;
+mod run;
 mod script;
 mod site;
 mod table;

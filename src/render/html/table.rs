@@ -29,6 +29,8 @@ pub(super) fn value(table: &TableView, prose: &Prose<'_>, line_href: Option<Stri
         has_remarks: table.rows.iter().any(|row| !row.remark.is_empty()),
         has_sentences: table.rows.iter().any(|row| !row.sentence.is_empty()),
         errors: list(&table.errors, |error| markup(&message(error))),
+        verdict_facts: list(&table.verdict.facts, |(name, value)| record! { name: name.as_str(), value: value.as_str() }),
+        run: table.run.as_ref().map(|run| super::run::value(run, &table.anchor)),
     }
 }
 

@@ -10,3 +10,4 @@ mod undocumented_member;
 mod unknown_parameter;
 mod unread_body;
 mod unverified_table;
+mod violated_table;
