@@ -72,7 +72,7 @@ fn a_see_tag_needs_no_brackets() {
 fn inheritance_in_a_circle_ends() {
     let (mut sample, base, _, block) = tree("(* [FB_Pump.Nothing] *)");
     sample.extends(base, block);
-    let docs = read(&sample.catalogue(), &Options::default());
+    let docs = sample.read_with(&Options::default());
     assert_eq!(docs.items[2].doc.as_ref().unwrap().broken_links().len(), 1);
 }
 
