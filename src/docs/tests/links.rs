@@ -1,7 +1,7 @@
 //! What names in prose mean.
 
 use super::sample::Sample;
-use crate::docs::{LinkTarget, Options, read};
+use crate::docs::{LinkTarget, Options};
 use crate::library::{ItemId, ItemKind, Placement};
 
 /// Two blocks, one the base of the other, and a variable whose type is the base.

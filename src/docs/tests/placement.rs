@@ -1,7 +1,7 @@
 //! Which comment is taken, and why the others are not.
 
 use super::sample::{Sample, show};
-use crate::docs::{Convention, Options, Reason, Verdict, read};
+use crate::docs::{Convention, Options, Reason, Verdict};
 use crate::library::{ItemKind, Placement};
 
 /// The brief of the first variable of a block, whose variables are given as (name, above, behind).
