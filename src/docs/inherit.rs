@@ -5,22 +5,22 @@
 //! block extends, then implements; so do its variables, by name. Its own tags stay. Test tables
 //! stay with the block that they were written for.
 
-use super::links::Index;
 use super::model::{Docs, Documentation, Entry, Tags};
+use crate::library::names::lineage;
 use crate::library::{Catalogue, Item, ItemId};
 
 /// How many `@copydoc` are followed, should they form a circle.
 const HOPS: usize = 8;
 
 /// Fills the entries of `docs` that have no documentation of their own.
-pub(super) fn inherit(catalogue: &Catalogue, index: &Index<'_>, docs: &mut Docs) {
+pub(super) fn inherit(catalogue: &Catalogue, docs: &mut Docs) {
     let mut found: Vec<(ItemId, Option<usize>, ItemId, Documentation)> = Vec::new();
     for (id, item) in catalogue.iter().filter(|(_, item)| !item.kind.is_accessor()) {
         let lacking: Vec<usize> = (0..item.variables.len()).filter(|i| lacks(docs.variable(id, *i))).collect();
         if !lacks(Some(docs.item(id))) && lacking.is_empty() {
             continue;
         }
-        let sources = sources(catalogue, index, docs, id, item);
+        let sources = sources(catalogue, docs, id, item);
         if lacks(Some(docs.item(id))) {
             let doc = sources.iter().find_map(|base| Some((*base, own(docs.item(*base))?)));
             found.extend(doc.map(|(base, doc)| (id, None, base, doc)));
@@ -51,12 +51,12 @@ fn lacks(entry: Option<&Entry>) -> bool {
 }
 
 /// Where documentation may come from, the preferred one first.
-fn sources(catalogue: &Catalogue, index: &Index<'_>, docs: &Docs, id: ItemId, item: &Item) -> Vec<ItemId> {
+fn sources(catalogue: &Catalogue, docs: &Docs, id: ItemId, item: &Item) -> Vec<ItemId> {
     let copy_of = |id: ItemId| docs.item(id).doc.as_ref().and_then(|doc| doc.tags.copy_of);
     let mut out: Vec<ItemId> =
         std::iter::successors(copy_of(id), |at| copy_of(*at)).take(HOPS).filter(|source| *source != id).collect();
     if let Some(parent) = item.parent {
-        out.extend(index.bases(parent).into_iter().filter_map(|base| member(catalogue, base, item)));
+        out.extend(lineage(catalogue, parent).into_iter().skip(1).filter_map(|base| member(catalogue, base, item)));
     }
     out
 }

@@ -5,6 +5,7 @@ use super::mapped::Mapped;
 use super::markdown::Reader;
 use super::prose::Block;
 use crate::library::Catalogue;
+use crate::library::names::Names;
 use crate::text::FileId;
 
 /// Reads Markdown whose links name entities of the whole tree.
@@ -14,10 +15,10 @@ pub struct Narrator<'a> {
 }
 
 impl<'a> Narrator<'a> {
-    /// For the names of `catalogue`.
+    /// For `catalogue`, whose names are `names`.
     #[must_use]
-    pub fn new(catalogue: &'a Catalogue) -> Self {
-        Self { index: Index::new(catalogue) }
+    pub const fn new(catalogue: &'a Catalogue, names: &'a Names) -> Self {
+        Self { index: Index::new(catalogue, names) }
     }
 
     /// The blocks of `text`. Places in them mean nothing.

@@ -14,21 +14,22 @@ use super::options::Options;
 use super::placement::{Candidate, Habit, choose_for_item, choose_for_variable};
 use super::prose::{Block, Inline};
 use super::tables::{self, Tables};
+use crate::library::names::Names;
 use crate::library::{Catalogue, Comment, Item, ItemId, Placement, Pragma, Variable};
 use crate::text::Place;
 
 mod brief;
 mod tags;
 
-/// Reads the documentation of all items and variables of `catalogue`.
+/// Reads the documentation of all items and variables of `catalogue`, whose names are `names`.
 #[must_use]
-pub fn read(catalogue: &Catalogue, options: &Options) -> Docs {
-    let index = Index::new(catalogue);
+pub fn read(catalogue: &Catalogue, names: &Names, options: &Options) -> Docs {
+    let index = Index::new(catalogue, names);
     let ids: Vec<ItemId> = catalogue.iter().map(|(id, _)| id).collect();
     let read = ids.par_iter().map(|id| read_item(catalogue, &index, *id, options));
     let (items, variables) = read.collect::<Vec<_>>().into_iter().unzip();
     let mut docs = Docs { items, variables };
-    inherit::inherit(catalogue, &index, &mut docs);
+    inherit::inherit(catalogue, &mut docs);
     docs
 }
 

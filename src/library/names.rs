@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Catalogue, ItemId, LibraryId, Target};
+use super::{Catalogue, ItemId, LibraryId, Target, TypeUse};
 
 /// Names are compared in this form.
 #[must_use]
@@ -64,12 +64,7 @@ impl Names {
     /// The top-level item that `name` means in `scope`.
     #[must_use]
     pub fn top(&self, catalogue: &Catalogue, name: &str, scope: Scope<'_>) -> Option<ItemId> {
-        let best = |id: &ItemId| {
-            let item = catalogue.item(*id);
-            let near = shared(&item.namespace, scope.namespace);
-            (item.library != scope.library, std::cmp::Reverse(near), *id)
-        };
-        self.all(name).iter().copied().min_by_key(best)
+        self.all(name).iter().copied().min_by_key(|id| distance(catalogue, *id, scope))
     }
 
     /// The global variable that `name` means in `scope`.
@@ -82,42 +77,51 @@ impl Names {
 
     /// What the path `parts` means in `scope`: a name, a member of what it names, and so on; leading
     /// parts may be a namespace or a library's name.
+    ///
+    /// Of several items of that name the nearest in which the rest of the path is found is meant.
     #[must_use]
     pub fn path(&self, catalogue: &Catalogue, parts: &[&str], scope: Scope<'_>) -> Option<Found> {
-        let (first, rest) = parts.split_first()?;
-        if let Some(id) = self.top(catalogue, first, scope)
-            && let Some(found) = self.descend(catalogue, Found::Item(id), rest)
-        {
-            return Some(found);
-        }
-        if rest.is_empty() {
-            return self.global(catalogue, first, scope);
-        }
-        self.qualified(catalogue, parts)
-    }
-
-    fn qualified(&self, catalogue: &Catalogue, parts: &[&str]) -> Option<Found> {
-        (1..parts.len()).find_map(|split| {
+        let item = (0..parts.len()).find_map(|split| {
             let (prefix, rest) = parts.split_at(split);
             let (name, members) = rest.split_first()?;
             let prefix: Vec<String> = prefix.iter().map(|part| fold(part)).collect();
-            let matching = self.all(name).iter().find(|id| is_within(catalogue, **id, &prefix))?;
-            self.descend(catalogue, Found::Item(*matching), members)
-        })
+            let mut fitting: Vec<ItemId> =
+                self.all(name).iter().copied().filter(|id| is_within(catalogue, *id, &prefix)).collect();
+            fitting.sort_by_key(|id| distance(catalogue, *id, scope));
+            fitting.into_iter().find_map(|id| self.descend(catalogue, Found::Item(id), members))
+        });
+        let (first, rest) = parts.split_first()?;
+        item.or_else(|| self.descend(catalogue, self.global(catalogue, first, scope)?, rest))
+    }
+
+    /// What the path `parts` means inside of `id`: from its members outwards to the members of what it stands in, and
+    /// then in the tree.
+    #[must_use]
+    pub fn seen_from(&self, catalogue: &Catalogue, id: ItemId, parts: &[&str]) -> Option<Found> {
+        let (first, rest) = parts.split_first()?;
+        let mut at = Some(id);
+        while let Some(owner) = at {
+            let item = catalogue.item(owner);
+            let member = self.member(catalogue, owner, first);
+            let itself = (fold(&item.name) == fold(first)).then_some(Found::Item(owner));
+            let found = [member, itself].into_iter().flatten().find_map(|found| self.descend(catalogue, found, rest));
+            if found.is_some() {
+                return found;
+            }
+            at = item.parent;
+        }
+        let item = catalogue.item(id);
+        self.path(catalogue, parts, Scope { library: item.library, namespace: &item.namespace })
     }
 
     fn descend(&self, catalogue: &Catalogue, from: Found, rest: &[&str]) -> Option<Found> {
-        let Some((name, rest)) = rest.split_first() else {
-            return Some(from);
-        };
-        let next = match from {
-            Found::Item(id) => self.member(catalogue, id, name)?,
-            Found::Variable(id, i) => {
-                let owner = self.type_of(catalogue, id, i)?;
-                self.member(catalogue, owner, name)?
-            }
-        };
-        self.descend(catalogue, next, rest)
+        rest.iter().try_fold(from, |at, name| {
+            let owner = match at {
+                Found::Item(id) => id,
+                Found::Variable(id, i) => self.type_of(catalogue, id, i)?,
+            };
+            self.member(catalogue, owner, name)
+        })
     }
 
     /// The item that is the type of a variable, if its type is the name of one.
@@ -130,18 +134,32 @@ impl Names {
         })
     }
 
-    /// The member or variable `name` of `id`, or of what it extends.
+    /// The variable or member `name` of `id`, or of what it extends and implements.
     #[must_use]
     pub fn member(&self, catalogue: &Catalogue, id: ItemId, name: &str) -> Option<Found> {
         let name = fold(name);
-        let lineage = lineage(catalogue, id);
-        lineage.into_iter().find_map(|owner| {
-            let item = catalogue.item(owner);
-            let child = item.children.iter().find(|child| fold(&catalogue.item(**child).name) == name);
-            let variable = || item.variables.iter().position(|variable| fold(&variable.name) == name);
-            child.map(|id| Found::Item(*id)).or_else(|| variable().map(|i| Found::Variable(owner, i)))
-        })
+        lineage(catalogue, id).into_iter().find_map(|owner| own_member(catalogue, owner, &name))
     }
+}
+
+/// The variable or member of `owner` itself that is called `name`, which is folded. Accessors have no name of their own.
+fn own_member(catalogue: &Catalogue, owner: ItemId, name: &str) -> Option<Found> {
+    let item = catalogue.item(owner);
+    let variable = item.variables.iter().position(|variable| fold(&variable.name) == name);
+    let child = || {
+        let named = |child: &&ItemId| {
+            let child = catalogue.item(**child);
+            fold(&child.name) == name && !child.kind.is_accessor()
+        };
+        item.children.iter().find(named)
+    };
+    variable.map(|i| Found::Variable(owner, i)).or_else(|| child().map(|id| Found::Item(*id)))
+}
+
+/// How far an item is from `scope`: another library, then a namespace that shares less, then the order of the tree.
+fn distance(catalogue: &Catalogue, id: ItemId, scope: Scope<'_>) -> (bool, std::cmp::Reverse<usize>, ItemId) {
+    let item = catalogue.item(id);
+    (item.library != scope.library, std::cmp::Reverse(shared(&item.namespace, scope.namespace)), id)
 }
 
 fn shared(a: &[String], b: &[String]) -> usize {
@@ -152,31 +170,42 @@ fn shared(a: &[String], b: &[String]) -> usize {
 fn is_within(catalogue: &Catalogue, id: ItemId, prefix: &[String]) -> bool {
     let item = catalogue.item(id);
     let namespace: Vec<String> = item.namespace.iter().map(|part| fold(part)).collect();
-    let library = &catalogue.libraries[item.library.0 as usize];
-    namespace.ends_with(prefix) || (prefix.len() == 1 && fold(&library.name) == prefix[0])
+    let library = catalogue.libraries.get(item.library.0 as usize).map(|library| fold(&library.name));
+    namespace.ends_with(prefix) || (prefix.len() == 1 && library.as_ref() == prefix.first())
 }
 
-/// `id` and what it extends, nearest first; then the interfaces of all of them. A cycle ends it.
+/// `id` and what it extends, nearest first; then the interfaces of all of them, and what those extend. A cycle ends it.
 #[must_use]
 pub fn lineage(catalogue: &Catalogue, id: ItemId) -> Vec<ItemId> {
     let mut seen = BTreeSet::from([id]);
     let mut order = vec![id];
-    let mut at = 0;
+    follow(catalogue, &mut order, &mut seen, 0);
+    let blocks = order.len();
+    for at in 0..blocks {
+        let interfaces = targets(&catalogue.item(order[at]).implements).filter(|base| seen.insert(*base));
+        order.extend(interfaces.collect::<Vec<_>>());
+    }
+    follow(catalogue, &mut order, &mut seen, blocks);
+    order
+}
+
+/// Appends what the items of `order` from `at` on extend, and what that extends.
+fn follow(catalogue: &Catalogue, order: &mut Vec<ItemId>, seen: &mut BTreeSet<ItemId>, mut at: usize) {
     while at < order.len() {
-        for base in bases(catalogue, order[at]) {
-            if seen.insert(base) {
-                order.push(base);
-            }
-        }
+        order.extend(targets(&catalogue.item(order[at]).extends).filter(|base| seen.insert(*base)));
         at += 1;
     }
-    order
 }
 
 /// What `id` extends and implements and is in this tree, in the order of the source.
 pub fn bases(catalogue: &Catalogue, id: ItemId) -> impl Iterator<Item = ItemId> {
     let item = catalogue.item(id);
-    item.extends.iter().chain(&item.implements).filter_map(|use_| match use_.names.last() {
+    targets(&item.extends).chain(targets(&item.implements))
+}
+
+/// The items that `uses` name and that are in this tree.
+fn targets(uses: &[TypeUse]) -> impl Iterator<Item = ItemId> {
+    uses.iter().filter_map(|used| match used.names.last() {
         Some((_, Target::Item(id))) => Some(*id),
         _ => None,
     })

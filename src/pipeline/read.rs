@@ -22,7 +22,7 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
     let relations = Relations::new(&catalogue, &names);
 
     events(Event::Stage { name: "comments", total: 0 });
-    let docs = docs::read(&catalogue, &settings.docs);
+    let docs = docs::read(&catalogue, &names, &settings.docs);
     let tables = tables::attach(&tree, &catalogue, &names, &docs, &settings.tables);
     findings.append(&mut tree.findings);
     findings.extend(tables.findings);

@@ -209,10 +209,16 @@ fn bodies_are_read() {
             source.tree.iter().for_each(|tree| bodies(tree.root(), &mut found));
             for body in found {
                 let span = source.fragment.map.span(body.span());
+                let text = &project.files.get(source.file).text;
+                // What is missing at the end of a body is told where the next word stands, or the text ends.
+                let reach = |end: u32| {
+                    let rest = text.get(end as usize..).unwrap_or_default();
+                    end as usize + rest.len() - rest.trim_start().len()
+                };
+                let reach = reach(span.end);
                 let inside = |error: &Finding| {
-                    error.place.file == source.file
-                        && error.place.span.start >= span.start
-                        && error.place.span.start <= span.end
+                    let at = error.place.span.start;
+                    error.place.file == source.file && at >= span.start && at as usize <= reach
                 };
                 let mut any = false;
                 for (error, of_body) in errors.iter().zip(&mut of_bodies) {

@@ -10,7 +10,7 @@ use super::syntax::zoo;
 
 #[path = "../fuzz/src/targets.rs"]
 #[allow(unreachable_pub, reason = "the crate of the fuzz targets calls them")]
-mod targets;
+pub(super) mod targets;
 
 #[test]
 fn what_was_found_stays_mended() {

@@ -136,3 +136,27 @@ fn equal_names_of_two_libraries_are_kept_apart() {
         assert_eq!(project.catalogue.item(base).library, item.library, "{id:?}");
     }
 }
+
+#[test]
+fn an_action_that_stands_apart_belongs_to_its_block() {
+    let files = [
+        ("a.st", "FUNCTION_BLOCK FB_Pump\nEND_FUNCTION_BLOCK\nACTION FB_Pump.Start:\nx := 1;\nEND_ACTION\n"),
+        ("b.st", "ACTION fb_pump.Stop:\nx := 0;\nEND_ACTION\nACTION Nobody.Act:\nEND_ACTION\n"),
+    ];
+    let project = project(&files, "");
+    let pump = item(&project, "FB_Pump");
+    let names = |ids: &[ItemId]| ids.iter().map(|id| project.catalogue.item(*id).name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&project.catalogue.item(pump).children), ["Start", "Stop"]);
+    let alone: Vec<_> =
+        project.catalogue.iter().filter(|(_, item)| item.parent.is_none()).map(|(_, item)| &item.name).collect();
+    assert_eq!(alone, ["FB_Pump", "Nobody.Act"]);
+}
+
+#[test]
+fn algorithms_are_actions_of_their_block() {
+    let text = "<FBType Name=\"A\"><InterfaceList><OutputVars><VarDeclaration Name=\"Y\" Type=\"INT\"/></OutputVars></InterfaceList><BasicFB><Algorithm Name=\"REQ\"><ST><![CDATA[ALGORITHM REQ\nY := 1;\nEND_ALGORITHM]]></ST></Algorithm></BasicFB></FBType>";
+    let project = project(&[("A.fbt", text)], "");
+    let action = project.catalogue.item(item(&project, "A.REQ"));
+    assert!(matches!(action.body, ItemBody::St(_)), "{:?}", action.body);
+    assert!(project.findings.iter().all(|finding| finding.severity != rungbook::diagnostic::Severity::Error));
+}

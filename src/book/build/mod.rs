@@ -101,7 +101,7 @@ impl<'a> Context<'a> {
             tables,
             findings,
             narratives: narrative::addresses(input.narratives),
-            narrator: Narrator::new(input.catalogue),
+            narrator: Narrator::new(input.catalogue, input.names),
         }
     }
 

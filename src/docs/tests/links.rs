@@ -1,7 +1,7 @@
 //! What names in prose mean.
 
 use super::sample::Sample;
-use crate::docs::{LinkTarget, Options, read};
+use crate::docs::{LinkTarget, Options};
 use crate::library::{ItemId, ItemKind, Placement};
 
 /// Two blocks, one the base of the other, and a variable whose type is the base.
@@ -72,7 +72,7 @@ fn a_see_tag_needs_no_brackets() {
 fn inheritance_in_a_circle_ends() {
     let (mut sample, base, _, block) = tree("(* [FB_Pump.Nothing] *)");
     sample.extends(base, block);
-    let docs = read(&sample.catalogue(), &Options::default());
+    let docs = sample.read_with(&Options::default());
     assert_eq!(docs.items[2].doc.as_ref().unwrap().broken_links().len(), 1);
 }
 

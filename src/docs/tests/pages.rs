@@ -2,6 +2,7 @@
 
 use super::sample::Sample;
 use crate::docs::{Block, Inline, LinkTarget, Narrator};
+use crate::library::names::Names;
 use crate::library::{ItemId, ItemKind};
 
 #[test]
@@ -9,7 +10,8 @@ fn a_page_is_plain_markdown_with_links() {
     let mut sample = Sample::new();
     sample.item(ItemKind::FunctionBlock, "FB_Pump", None, Vec::new());
     let catalogue = sample.catalogue();
-    let narrator = Narrator::new(&catalogue);
+    let names = Names::new(&catalogue);
+    let narrator = Narrator::new(&catalogue, &names);
     let blocks =
         narrator.blocks("# Pumps\n\nSee [FB_Pump].\nAnd\nmore than that, on a line of its own.\n\n    code := 1;");
     assert_eq!(blocks[0], Block::Heading(1, vec![Inline::Text("Pumps".to_owned())]));

@@ -1,7 +1,7 @@
 //! Which comment is taken, and why the others are not.
 
 use super::sample::{Sample, show};
-use crate::docs::{Convention, Options, Reason, Verdict, read};
+use crate::docs::{Convention, Options, Reason, Verdict};
 use crate::library::{ItemKind, Placement};
 
 /// The brief of the first variable of a block, whose variables are given as (name, above, behind).
@@ -209,7 +209,7 @@ fn lines_below_go_on_with_the_comment_behind() {
 fn marked_only_asks_for_marks() {
     let sample = Sample::above("// plain");
     let options = Options { marked_only: true, ..Options::default() };
-    let entry = &read(&sample.catalogue(), &options).items[0];
+    let entry = &sample.read_with(&options).items[0];
     assert_eq!(entry.considered[0].verdict, Verdict::Rejected(Reason::NotAsked));
     assert_eq!(Convention::ALL.map(|c| Convention::from_key(c.key())), Convention::ALL.map(Some));
 }

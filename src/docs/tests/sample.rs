@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::docs::{Block, Docs, Documentation, Entry, Inline, LinkTarget, Options, read};
+use crate::library::names::Names;
 use crate::library::{
     Access, Catalogue, Comment, FragmentId, Item, ItemBody, ItemId, ItemKind, Library, LibraryId, Placement, Pragma,
     Section, Source, Target, TypeUse, Variable,
@@ -142,8 +143,13 @@ impl Sample {
         Catalogue { sources: vec![source], ..self.catalogue.clone() }
     }
 
+    pub(super) fn read_with(&self, options: &Options) -> Docs {
+        let catalogue = self.catalogue();
+        read(&catalogue, &Names::new(&catalogue), options)
+    }
+
     pub(super) fn read(&self) -> Docs {
-        read(&self.catalogue(), &Options::default())
+        self.read_with(&Options::default())
     }
 
     /// The text at a place.

@@ -3,6 +3,7 @@
 mod codes;
 mod codesys;
 mod corpus;
+mod dialects;
 mod disk;
 mod others;
 mod plain;
