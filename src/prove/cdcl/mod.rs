@@ -11,7 +11,7 @@
 //!   activation variables pile up and the solver is never restarted.
 //!
 //! Left out: preprocessing, proofs, and the bucket queue of the paper. Limits are counted, not timed, so that the same
-//! questions always get the same answers; `ticks` is the measure of work that everything above shares.
+//! questions always get the same answers (the clock only ends everything); `ticks` is the measure of work that everything above shares.
 
 mod clauses;
 mod heap;
@@ -20,6 +20,7 @@ mod search;
 mod tests;
 
 use crate::logic::aig::Lit;
+use crate::logic::sat::Stop;
 use heap::Heap;
 
 /// No clause.
@@ -70,6 +71,9 @@ pub(crate) struct Solver {
     guard: Option<u32>,
     guarded: Vec<u32>,
     most_learnts: usize,
+    /// When to give up at once.
+    pub(crate) stop: Stop,
+    look: u64,
     /// Work done so far.
     pub(crate) ticks: u64,
 }
@@ -155,7 +159,7 @@ impl Solver {
         self.failed.contains(&assumption)
     }
 
-    /// Is there an assignment under these assumptions, with `extra` as a clause? `None` when `budget` ticks are spent.
+    /// Is there an assignment under these assumptions, with `extra` as a clause? `None` when `budget` ticks are spent or it is to stop.
     pub(crate) fn solve(
         &mut self,
         assumptions: &[Lit],
