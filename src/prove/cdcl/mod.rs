@@ -33,15 +33,6 @@ struct Watch {
     blocker: Lit,
 }
 
-/// What a question is about.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Domain<'a> {
-    /// Everything.
-    Whole,
-    /// These variables; closed as the module says.
-    Of(&'a [u32]),
-}
-
 /// The solver. Literals are those of the graph: a node's number is its variable's.
 #[derive(Debug, Default)]
 pub(crate) struct Solver {
@@ -159,12 +150,12 @@ impl Solver {
         self.failed.contains(&assumption)
     }
 
-    /// Is there an assignment under these assumptions, with `extra` as a clause? `None` when `budget` ticks are spent or it is to stop.
+    /// Is there an assignment under these assumptions, with `extra` as a clause? Only `domain` is looked at, where there is one. `None` when `budget` ticks are spent or it is to stop.
     pub(crate) fn solve(
         &mut self,
         assumptions: &[Lit],
         extra: Option<&[Lit]>,
-        domain: Domain<'_>,
+        domain: Option<&[u32]>,
         budget: u64,
     ) -> Option<bool> {
         self.back_to(0);
@@ -216,10 +207,10 @@ impl Solver {
         guard
     }
 
-    fn enter(&mut self, domain: Domain<'_>, assumptions: &[Lit]) {
+    fn enter(&mut self, domain: Option<&[u32]>, assumptions: &[Lit]) {
         self.heap.clear();
         match domain {
-            Domain::Whole => {
+            None => {
                 self.confined = false;
                 for var in 0..self.level.len() as u32 {
                     if self.values[2 * var as usize] == 0 {
@@ -227,7 +218,7 @@ impl Solver {
                     }
                 }
             }
-            Domain::Of(vars) => {
+            Some(vars) => {
                 self.confined = true;
                 self.inside.fill(false);
                 for &var in vars {

@@ -192,11 +192,7 @@ impl Solver {
             self.seen[var] = false;
             let reason = self.reason[var];
             if reason == NONE {
-                if on != !lit {
-                    self.failed.push(on);
-                } else if !self.failed.contains(&on) {
-                    self.failed.push(on);
-                }
+                self.failed.push(on);
                 continue;
             }
             for index in 1..self.size(reason) {
