@@ -1,6 +1,6 @@
 //! A solver of a transition relation, asked about parts of it at a time.
 
-use super::cdcl::{Domain, Solver};
+use super::cdcl::Solver;
 use super::encode::Encoding;
 use crate::logic::aig::Lit;
 
@@ -42,7 +42,7 @@ impl Asker {
         let base = self.base.len();
         let about = assumptions.iter().chain(extra.unwrap_or(&[])).map(|l| l.node());
         encoding.close(about, &mut self.base, &mut self.marked);
-        let answer = self.solver.solve(assumptions, extra, Domain::Of(&self.base), budget);
+        let answer = self.solver.solve(assumptions, extra, Some(&self.base), budget);
         for variable in self.base.drain(base..) {
             self.marked[variable as usize] = false;
         }

@@ -81,20 +81,33 @@ pub struct Progress {
     pub clauses: usize,
 }
 
-/// A flag that several engines look at.
+/// A flag that several engines look at; raised, it stops them all.
 #[derive(Clone, Debug, Default)]
-pub struct Cancel(Arc<AtomicBool>);
+pub struct Cancel {
+    own: Arc<AtomicBool>,
+    above: Option<Arc<Self>>,
+}
 
 impl Cancel {
     /// Asks everybody to stop.
     pub fn cancel(&self) {
-        self.0.store(true, Ordering::Relaxed);
+        self.own.store(true, Ordering::Relaxed);
     }
 
     /// Whether somebody asked.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        self.own.load(Ordering::Relaxed) || self.above.as_ref().is_some_and(|a| a.is_cancelled())
+    }
+
+    /// A flag that is raised with this one, and can be raised alone.
+    pub(crate) fn child(&self) -> Self {
+        Self { own: Arc::default(), above: Some(Arc::new(self.clone())) }
+    }
+
+    fn stop(&self, stop: Stop) -> Stop {
+        let stop = stop.or_flag(Arc::clone(&self.own));
+        self.above.as_ref().map_or(stop.clone(), |a| a.stop(stop))
     }
 }
 
@@ -124,7 +137,13 @@ impl Budget {
 
     /// The same for a solver.
     pub(crate) fn stop(&self) -> Stop {
-        self.deadline.map_or_else(Stop::default, Stop::at).or_flag(Arc::clone(&self.cancel.0))
+        self.cancel.stop(self.deadline.map_or_else(Stop::default, Stop::at))
+    }
+
+    /// The same for engines that race each other, with the flag that the first one raises.
+    pub(crate) fn race(&self) -> (Self, Cancel) {
+        let won = self.cancel.child();
+        (Self { cancel: won.clone(), ..self.clone() }, won)
     }
 
     /// Why to stop now, if so.

@@ -6,7 +6,7 @@
 //! its kind is the same, its evidence may differ.
 
 use super::bmc::BmcSearch;
-use super::engine::{Answer, Budget, Engine, Hints, Progress, Reason, Search, bounded, drive};
+use super::engine::{Answer, Budget, Cancel, Engine, Hints, Progress, Reason, Search, bounded, drive};
 use super::ic3::Ic3Search;
 use super::induction::InductionSearch;
 use super::mine::{Mined, mine};
@@ -108,10 +108,12 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
 
 fn side_by_side(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'_>) -> Outcome {
     let other = problem.clone();
+    let (budget, won) = budget.race();
+    let (budget, won) = (&budget, &won);
     let (one, two) = std::thread::scope(|scope| {
         let beside = scope.spawn(|| {
             let answer = drive(&mut InductionSearch::new(other), budget, listener);
-            finish(Outcome { answer, engine: "induction" }, budget)
+            finish(Outcome { answer, engine: "induction" }, won)
         });
         let own = match enrich(problem, hints, budget, listener) {
             Ok(problem) => {
@@ -120,16 +122,16 @@ fn side_by_side(problem: Problem, hints: &Hints, budget: &Budget, listener: List
             }
             Err(outcome) => outcome,
         };
-        (finish(own, budget), beside.join())
+        (finish(own, won), beside.join())
     });
     let two = two.unwrap_or(Outcome { answer: Answer::GaveUp(Reason::Incomplete), engine: "induction" });
     better(one, two)
 }
 
 /// Stops the others where the question is settled.
-fn finish(outcome: Outcome, budget: &Budget) -> Outcome {
+fn finish(outcome: Outcome, won: &Cancel) -> Outcome {
     if outcome.answer.is_final() {
-        budget.cancel.cancel();
+        won.cancel();
     }
     outcome
 }

@@ -17,6 +17,7 @@ mod machine;
 mod model;
 #[cfg(feature = "pdf")]
 mod pdf;
+mod prove;
 mod recheck;
 mod rules;
 mod source;

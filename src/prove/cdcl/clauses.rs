@@ -12,7 +12,7 @@ const DEAD: u32 = 2;
 impl Solver {
     pub(super) fn store(&mut self, lits: &[Lit], learnt: bool, quality: u32) -> u32 {
         let clause = self.arena.len() as u32;
-        self.arena.push((lits.len() as u32) << 2 | u32::from(learnt) * LEARNT);
+        self.arena.push(((lits.len() as u32) << 2) | (u32::from(learnt) * LEARNT));
         self.arena.push(quality);
         self.arena.extend(lits.iter().map(|l| l.0));
         self.watch(clause);

@@ -11,7 +11,7 @@
 //!   activation variables pile up and the solver is never restarted.
 //!
 //! Left out: preprocessing, proofs, and the bucket queue of the paper. Limits are counted, not timed, so that the same
-//! questions always get the same answers; `ticks` is the measure of work that everything above shares.
+//! questions always get the same answers (the clock only ends everything); `ticks` is the measure of work that everything above shares.
 
 mod clauses;
 mod heap;
@@ -20,6 +20,7 @@ mod search;
 mod tests;
 
 use crate::logic::aig::Lit;
+use crate::logic::sat::Stop;
 use heap::Heap;
 
 /// No clause.
@@ -30,15 +31,6 @@ const NONE: u32 = u32::MAX;
 struct Watch {
     clause: u32,
     blocker: Lit,
-}
-
-/// What a question is about.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Domain<'a> {
-    /// Everything.
-    Whole,
-    /// These variables; closed as the module says.
-    Of(&'a [u32]),
 }
 
 /// The solver. Literals are those of the graph: a node's number is its variable's.
@@ -70,6 +62,9 @@ pub(crate) struct Solver {
     guard: Option<u32>,
     guarded: Vec<u32>,
     most_learnts: usize,
+    /// When to give up at once.
+    pub(crate) stop: Stop,
+    look: u64,
     /// Work done so far.
     pub(crate) ticks: u64,
 }
@@ -155,12 +150,12 @@ impl Solver {
         self.failed.contains(&assumption)
     }
 
-    /// Is there an assignment under these assumptions, with `extra` as a clause? `None` when `budget` ticks are spent.
+    /// Is there an assignment under these assumptions, with `extra` as a clause? Only `domain` is looked at, where there is one. `None` when `budget` ticks are spent or it is to stop.
     pub(crate) fn solve(
         &mut self,
         assumptions: &[Lit],
         extra: Option<&[Lit]>,
-        domain: Domain<'_>,
+        domain: Option<&[u32]>,
         budget: u64,
     ) -> Option<bool> {
         self.back_to(0);
@@ -212,10 +207,10 @@ impl Solver {
         guard
     }
 
-    fn enter(&mut self, domain: Domain<'_>, assumptions: &[Lit]) {
+    fn enter(&mut self, domain: Option<&[u32]>, assumptions: &[Lit]) {
         self.heap.clear();
         match domain {
-            Domain::Whole => {
+            None => {
                 self.confined = false;
                 for var in 0..self.level.len() as u32 {
                     if self.values[2 * var as usize] == 0 {
@@ -223,7 +218,7 @@ impl Solver {
                     }
                 }
             }
-            Domain::Of(vars) => {
+            Some(vars) => {
                 self.confined = true;
                 self.inside.fill(false);
                 for &var in vars {

@@ -192,11 +192,7 @@ impl Solver {
             self.seen[var] = false;
             let reason = self.reason[var];
             if reason == NONE {
-                if on != !lit {
-                    self.failed.push(on);
-                } else if !self.failed.contains(&on) {
-                    self.failed.push(on);
-                }
+                self.failed.push(on);
                 continue;
             }
             for index in 1..self.size(reason) {
@@ -260,6 +256,18 @@ impl Solver {
         Some(true)
     }
 
+    /// Looks at the clock once in a while.
+    fn is_stopped(&mut self) -> bool {
+        if self.ticks < self.look {
+            return false;
+        }
+        let stopped = self.stop.reached();
+        if !stopped {
+            self.look = self.ticks + 300_000;
+        }
+        stopped
+    }
+
     pub(super) fn search(&mut self, assumptions: &[Lit], until: u64) -> Option<bool> {
         self.stamps.resize(self.stamps.len().max(self.level.len() + assumptions.len() + 2), 0);
         let (mut round, mut conflicts) = (1, 0);
@@ -275,7 +283,7 @@ impl Solver {
                 self.back_to(back);
                 self.learn(&learnt);
                 self.step /= 0.95;
-            } else if self.ticks > until {
+            } else if self.ticks > until || self.is_stopped() {
                 return None;
             } else if conflicts >= 100 * luby(round) {
                 (round, conflicts) = (round + 1, 0);

@@ -1,4 +1,4 @@
-use super::{Domain, Solver};
+use super::Solver;
 use crate::logic::aig::Lit;
 use crate::prove::simulate::Random;
 
@@ -28,7 +28,7 @@ fn answers_as_enumeration_does() {
             }
             let assumptions = random_clause(&mut random, count);
             let extra = (random.next() % 2 == 0).then(|| random_clause(&mut random, count));
-            let answer = solver.solve(&assumptions, extra.as_deref(), Domain::Whole, u64::MAX);
+            let answer = solver.solve(&assumptions, extra.as_deref(), None, u64::MAX);
             let with = |chosen: &[Lit]| {
                 let mut all = clauses.clone();
                 all.extend(extra.clone());

@@ -157,6 +157,7 @@ impl Ic3Search {
             let clause = negated(&self.problem, cube);
             asker.require(&self.encoding, &clause);
         }
+        asker.solver.stop = self.budget.stop();
         self.frames.push(Frame { cubes: Vec::new(), asker });
         self.queue.forget_blocked();
     }
@@ -191,6 +192,10 @@ impl Search for Ic3Search {
     fn advance(&mut self, ticks: u64, budget: &Budget, progress: &dyn Fn(Progress)) -> Option<Answer> {
         self.pause = self.work.saturating_add(ticks);
         self.budget = budget.clone();
+        let frames = self.frames.iter_mut().map(|f| &mut f.asker);
+        for asker in frames.chain([&mut self.forever, &mut self.lifter, &mut self.first]) {
+            asker.solver.stop = budget.stop();
+        }
         match self.proceed(progress) {
             Ok(answer) => Some(answer),
             Err(Stop::Pause) => None,

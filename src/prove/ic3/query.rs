@@ -1,6 +1,5 @@
 //! The questions that the search asks.
 
-use super::super::asker::Asker;
 use super::frames::Cube;
 use super::{Ic3Search, Stop, negated, next, now};
 use crate::logic::aig::Lit;
@@ -18,15 +17,6 @@ enum Whom {
 }
 
 impl Ic3Search {
-    fn asker(&mut self, whom: Whom) -> &mut Asker {
-        match whom {
-            Whom::Frame(frame) => &mut self.frames[frame].asker,
-            Whom::Forever => &mut self.forever,
-            Whom::Lifter => &mut self.lifter,
-            Whom::First => &mut self.first,
-        }
-    }
-
     /// Asks until there is an answer, or time or share are up.
     fn ask(&mut self, whom: Whom, assumptions: &[Lit], extra: Option<&[Lit]>) -> Result<bool, Stop> {
         if self.work > self.pause {
@@ -187,7 +177,7 @@ impl Ic3Search {
             if self.ask_first(&assumptions)? {
                 return Ok(cube.clone());
             }
-            let solver = &self.asker(Whom::First).solver;
+            let solver = &self.first.solver;
             let failed: Vec<bool> = assumptions.iter().map(|&a| solver.failed(a)).collect();
             lits.extend(cube.lits().iter().zip(failed).filter(|(_, f)| *f).map(|(&l, _)| l));
         }

@@ -9,8 +9,9 @@ use super::super::problem::Problem;
 use super::super::simulate::{Random, Simulator};
 use crate::logic::aig::{Lit, Model};
 
-/// Work spent on one guess before it is dropped.
-const PATIENCE: u64 = 3_000_000;
+/// Work spent on one guess before it is dropped, and on all.
+const PATIENCE: u64 = 2_000_000;
+const ENOUGH: u64 = 500_000_000;
 
 /// Guesses, and what is left of them.
 pub(super) struct Houdini {
@@ -21,6 +22,7 @@ pub(super) struct Houdini {
     alive: Vec<bool>,
     encoding: Encoding,
     random: Random,
+    work: u64,
 }
 
 impl Houdini {
@@ -34,7 +36,7 @@ impl Houdini {
         let encoding = Encoding::new(&problem.model.aig, &roots);
         let alive = vec![true; clauses.len()];
         let (model, bad) = (problem.model.clone(), problem.bad);
-        Self { model, bad, clauses, later, alive, encoding, random: Random::new(2) }
+        Self { model, bad, clauses, later, alive, encoding, random: Random::new(2), work: 0 }
     }
 
     /// Drops guesses until the rest holds at first and is preserved.
@@ -46,6 +48,7 @@ impl Houdini {
 
     fn drop_false_at_first(&mut self, budget: &Budget) -> Result<(), Reason> {
         let mut first = Asker::new(&self.encoding, &[]);
+        first.solver.stop = budget.stop();
         for latch in &self.model.latches {
             if let Some(value) = latch.initial {
                 first.require(&self.encoding, &[latch.lit.invert_if(!value)]);
@@ -73,6 +76,8 @@ impl Houdini {
     /// Checks every guess that is left under the assumption of all; whether one had to go.
     fn round(&mut self, budget: &Budget) -> Result<bool, Reason> {
         let mut asker = self.assuming();
+        asker.solver.stop = budget.stop();
+        let start = asker.solver.ticks;
         let mut dropped = false;
         for index in 0..self.clauses.len() {
             if !self.alive[index] {
@@ -87,7 +92,11 @@ impl Houdini {
             }
             self.alive[index] = false;
             dropped = true;
+            if self.work + (asker.solver.ticks - start) > ENOUGH {
+                return Err(Reason::Incomplete);
+            }
         }
+        self.work += asker.solver.ticks - start;
         Ok(dropped)
     }
 
@@ -109,6 +118,7 @@ impl Houdini {
     /// Where the surviving guesses imply the property, some of them that do and that are inductive.
     pub(super) fn imply_property(&self, budget: &Budget) -> Result<Option<Vec<Vec<Lit>>>, Reason> {
         let mut asker = self.assuming();
+        asker.solver.stop = budget.stop();
         let mut work = 30_000_000;
         loop {
             match asker.ask(&self.encoding, &[self.bad], None, work) {
@@ -117,7 +127,7 @@ impl Houdini {
                 None => budget.exhausted().map_or(Ok(()), Err)?,
             }
             work *= 2;
-            if work > 1_000_000_000 {
+            if work > ENOUGH {
                 return Ok(None);
             }
         }

@@ -6,20 +6,8 @@ use rungbook::logic::aig::Lit;
 use super::words::{Builder, Word};
 
 /// Where the table can be after each of its twelve places.
-const AFTER: [&[usize]; 12] = [
-    &[0, 1],
-    &[1, 2],
-    &[2, 3],
-    &[3, 4],
-    &[4, 3, 5, 6],
-    &[5, 6],
-    &[7],
-    &[8],
-    &[9],
-    &[10],
-    &[11],
-    &[11, 5, 6],
-];
+const AFTER: [&[usize]; 12] =
+    [&[0, 1], &[1, 2], &[2, 3], &[3, 4], &[4, 3, 5, 6], &[5, 6], &[7], &[8], &[9], &[10], &[11], &[11, 5, 6]];
 
 /// What the block reads and has, and what it makes of it.
 struct Cycle {

@@ -1,14 +1,22 @@
-//! The engines against explicit-state exploration, on random models.
+//! The engines against explicit-state exploration, on random models; and on families of systems, with their proofs
+//! checked by another solver.
 
 pub(crate) mod aiger;
+pub(crate) mod check;
 mod explicit;
 pub(crate) mod families;
 pub(crate) mod minmax;
 pub(crate) mod random;
 pub(crate) mod words;
 
-use rungbook::prove::engine::{Answer, Budget, Engine};
+use minmax::minmax;
+use rungbook::prove::bmc::Bmc;
+use rungbook::prove::engine::{Answer, Budget, Engine, Hints};
 use rungbook::prove::ic3::Ic3;
+use rungbook::prove::induction::Induction;
+use rungbook::prove::mine::Mine;
+use rungbook::prove::portfolio::{self, Options, Portfolio};
+use words::Builder;
 
 fn cases(usual: u64) -> u64 {
     std::env::var("RUNGBOOK_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(usual)
@@ -16,9 +24,13 @@ fn cases(usual: u64) -> u64 {
 
 /// Whether the engine's answer is the oracle's, with evidence that holds; an engine that gives up is let go.
 pub(crate) fn compare(engine: &dyn Engine, seed: u64, latches: usize) -> bool {
+    compare_within(engine, seed, latches, &Budget::seconds(20.0))
+}
+
+fn compare_within(engine: &dyn Engine, seed: u64, latches: usize, budget: &Budget) -> bool {
     let model = random::model(seed, latches);
     let expected = explicit::shortest(&model);
-    match engine.run(&model, 0, &Budget::seconds(20.0), &|_| ()) {
+    match engine.run(&model, 0, budget, &|_| ()) {
         Answer::Proved(proof) => {
             assert_eq!(expected, None, "seed {seed}: proved, but violated");
             explicit::check_proof(&model, &proof);
@@ -40,7 +52,83 @@ pub(crate) fn compare(engine: &dyn Engine, seed: u64, latches: usize) -> bool {
 
 #[test]
 fn ic3_agrees() {
-    for seed in 0..cases(300) {
+    for seed in 0..cases(500) {
         assert!(compare(&Ic3, seed, 8), "seed {seed}");
+    }
+}
+
+#[test]
+fn bounded_checking_agrees() {
+    let budget = || Budget::seconds(0.05);
+    for seed in 0..cases(60) {
+        compare_within(&Bmc, seed, 4, &budget());
+    }
+}
+
+#[test]
+fn induction_agrees() {
+    for seed in 0..cases(200) {
+        assert!(compare(&Induction, seed, 4), "seed {seed}");
+    }
+}
+
+#[test]
+fn mining_agrees() {
+    let decided = (0..cases(300)).filter(|&seed| compare(&Mine::default(), seed, 8)).count();
+    assert!(decided > 0);
+}
+
+#[test]
+fn the_portfolio_agrees() {
+    for seed in 0..cases(300) {
+        assert!(compare(&Portfolio::default(), seed, 8), "seed {seed}");
+    }
+}
+
+/// The portfolio's answer on a system of a family, with the words known.
+fn decide(system: &Builder, jobs: usize) -> Answer {
+    let options = Options { jobs, hints: Hints { words: system.words.clone() } };
+    portfolio::decide(&system.model, 0, &options, &Budget::seconds(60.0), &|_| ()).answer
+}
+
+#[test]
+fn families_are_decided_with_evidence() {
+    let safe = [
+        families::counter(8, 20, 100),
+        families::timer(16, 100, 4),
+        families::queue(3),
+        families::arbiter(6),
+        families::extremes(8),
+        minmax(6, false),
+    ];
+    for (index, system) in safe.iter().enumerate() {
+        match decide(system, 1) {
+            Answer::Proved(proof) => check::check_invariant(&system.model, &proof),
+            other => panic!("system {index}: {other:?}"),
+        }
+    }
+    match decide(&families::counter(8, 30, 30), 2) {
+        Answer::Violated(trace) => assert_eq!(trace.inputs.len(), 31),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn one_job_gives_the_same_evidence_each_time() {
+    let system = minmax(5, false);
+    let (once, again) = (decide(&system, 1), decide(&system, 1));
+    assert!(once.is_final());
+    assert_eq!(once, again);
+}
+
+#[test]
+fn a_hopeless_model_ends_in_time() {
+    let system = families::product(14);
+    for jobs in [1, 2] {
+        let start = std::time::Instant::now();
+        let options = Options { jobs, hints: Hints::default() };
+        let outcome = portfolio::decide(&system.model, 0, &options, &Budget::seconds(2.0), &|_| ());
+        assert!(matches!(outcome.answer, Answer::Bounded { .. } | Answer::GaveUp(_)), "{outcome:?}");
+        assert!(start.elapsed().as_secs_f64() < 3.5, "{:?}", start.elapsed());
     }
 }
