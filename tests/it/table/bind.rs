@@ -338,3 +338,33 @@ fn rows_that_the_inputs_do_not_tell_apart_are_told_with_an_example() {
     assert_eq!(one("| 1 | <= 5 | - | - | - | -p |\n| 2 | >= 5 | - | - | - | 1 |\n"), [""; 0]);
     assert_eq!(one("| 1 | <= 5 | - | - | - | 7 |\n| 2 | >= 5 | - | - | - | 1 |\n"), [""; 0]);
 }
+
+/// How long a table of 500 rows and 40 columns takes to bind; `-- --ignored --nocapture bound_large` prints it.
+#[test]
+#[ignore = "measures"]
+fn a_bound_large_table_is_measured() {
+    let names = |name: &str| (0..20).map(|at| format!("{name}{at} : INT; ")).collect::<String>();
+    let block = format!(
+        "FUNCTION_BLOCK FB VAR_INPUT {} END_VAR VAR_OUTPUT {} END_VAR END_FUNCTION_BLOCK",
+        names("i"),
+        names("o")
+    );
+    let columns: Vec<String> =
+        (0..40).map(|at| if at < 20 { format!("in i{at}") } else { format!("out o{}", at - 20) }).collect();
+    let mut table = format!("@gtt Large\n| # | {} | dur |\n|{}\n", columns.join(" | "), "---|".repeat(42));
+    for row in 0..500 {
+        let cells: Vec<String> = (0..40).map(|at| format!(">= {row}, <= {at} + 500")).collect();
+        table += &format!("| {row} | {} | {} |\n", cells.join(" | "), ["[1,10]", "-", "5", ">= 2 p"][row % 4]);
+    }
+    let start = std::time::Instant::now();
+    let project = support::project(&[("a.st", &block), ("FB.gtt.md", &table)], "");
+    eprintln!("read, bound and looked through {:?}", start.elapsed());
+    let attached = &project.tables[0];
+    let start = std::time::Instant::now();
+    let unit = attached.item.expect("its block is known");
+    let (bound, findings) = rungbook::table::bind::bind(&attached.table, &project.catalogue, &project.names, unit);
+    let middle = start.elapsed();
+    let automaton = rungbook::table::automaton::Automaton::build(&attached.table).expect("it has one");
+    eprintln!("bound {middle:?}, unrolled {:?}", start.elapsed() - middle);
+    assert_eq!((bound.rows.len(), findings.len(), automaton.leaves.len()), (500, 0, 500));
+}

@@ -44,5 +44,6 @@ pub(super) fn program(choices: &mut Choices<'_>) -> Program {
         cone: Vec::new(),
         enumerations: std::collections::BTreeMap::new(),
         variables: Vec::new(),
+        enumerations: std::collections::BTreeMap::new(),
     }
 }
