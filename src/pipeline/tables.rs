@@ -14,7 +14,7 @@ use crate::source::{TableFile, Tree};
 use crate::table::codes::{MISSING_TABLE_FILE, UNATTACHED_TABLE};
 use crate::table::read::{self, Read};
 use crate::table::{AttachedTable, Piece, Table, TableError};
-use crate::table::{bind, form, lint};
+use crate::table::{bind, decide, form, lint};
 use crate::text::FileId;
 
 /// The tables and what is wrong with them.
@@ -87,6 +87,9 @@ impl Tables {
             });
             if !table.has_errors() {
                 self.findings.extend(lint::lint(&table));
+            }
+            if let Some(bound) = &bound {
+                self.findings.extend(decide::lint::lint(&table, bound));
             }
             table.errors = bound.as_ref().map_or(table.errors, |bound| bound.errors);
             self.tables.push(AttachedTable { table, item, errors, bound });

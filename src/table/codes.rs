@@ -127,8 +127,26 @@ pub static TABLE_DECLARED_TYPE: Code = Code {
 pub static TABLE_DIRECTION: Code =
     Code { name: "table-direction", severity: Severity::Warning, page: include_str!("pages/table-direction.md") };
 
+/// Cells that no values satisfy.
+pub static TABLE_CONTRADICTION: Code = Code {
+    name: "table-contradiction",
+    severity: Severity::Warning,
+    page: include_str!("pages/table-contradiction.md"),
+};
+
+/// A table that no inputs satisfy.
+pub static TABLE_NO_INPUT: Code =
+    Code { name: "table-no-input", severity: Severity::Warning, page: include_str!("pages/table-no-input.md") };
+
+/// Rows that may follow the same row and admit the same inputs.
+pub static TABLE_OVERLAP: Code =
+    Code { name: "table-overlap", severity: Severity::Info, page: include_str!("pages/table-overlap.md") };
+
 /// All codes of the room.
 pub static ALL: &[&Code] = &[
+    &TABLE_CONTRADICTION,
+    &TABLE_NO_INPUT,
+    &TABLE_OVERLAP,
     &TABLE_UNKNOWN_NAME,
     &TABLE_TYPE,
     &TABLE_DECLARED_TYPE,

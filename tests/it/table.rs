@@ -7,6 +7,7 @@ mod cells;
 mod corpora;
 mod fuzz;
 mod gtt;
+mod instances;
 mod layout;
 mod papers;
 mod pipe;

@@ -60,7 +60,7 @@ impl Search<'_, '_> {
 }
 
 /// Whether no counts satisfy the conditions of both.
-fn contradict(one: &Edge, other: &Edge) -> bool {
+pub(in crate::table) fn contradict(one: &Edge, other: &Edge) -> bool {
     one.conditions.iter().any(|a| {
         other.conditions.iter().filter(|b| a.counter == b.counter).any(|b| match (a.test, b.test) {
             (Test::AtLeast(low), Test::Below(high)) | (Test::Below(high), Test::AtLeast(low)) => high <= low,
@@ -70,7 +70,7 @@ fn contradict(one: &Edge, other: &Edge) -> bool {
 }
 
 /// Whether `one` may not be taken where `other` may: a progress flag.
-fn gives_way(one: &Edge, other: &Edge) -> bool {
+pub(in crate::table) fn gives_way(one: &Edge, other: &Edge) -> bool {
     one.rivals.iter().any(|rival| {
         other.target == Target::Enter(rival.leaf)
             && rival.conditions.iter().all(|condition| other.conditions.contains(condition))

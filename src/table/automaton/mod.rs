@@ -15,7 +15,7 @@
 mod edges;
 pub mod encode;
 pub mod game;
-mod meet;
+pub(in crate::table) mod meet;
 mod ranges;
 mod shape;
 

@@ -61,6 +61,7 @@ impl Binder<'_> {
                 Some(Type::Enumeration { item, .. }) => *item,
                 _ => None,
             };
+            let labels = type_.as_ref().map_or_else(Vec::new, |type_| self.labels(type_));
             let mut constraint = None;
             if let (Some(cell), Some(type_)) = (&global.constraint, type_) {
                 let kind = TypedKind::Read(Leaf::Global(index));
@@ -71,7 +72,14 @@ impl Binder<'_> {
                     None => {}
                 }
             }
-            out.push(BoundGlobal { name: global.name.clone(), scalar, enumeration, constraint, place: global.place });
+            out.push(BoundGlobal {
+                name: global.name.clone(),
+                scalar,
+                enumeration,
+                labels,
+                constraint,
+                place: global.place,
+            });
         }
         out
     }

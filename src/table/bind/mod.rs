@@ -66,8 +66,12 @@ pub struct BoundVariable {
     pub scalar: Scalar,
     /// The enumeration that the type is, if it is one.
     pub enumeration: Option<ItemId>,
+    /// The values of the enumeration with their names.
+    pub labels: Vec<(u64, String)>,
     /// The numbers that it may hold, where its type is a subrange.
     pub range: Option<(i128, i128)>,
+    /// Its declared initial value, where that is a constant.
+    pub initial: u64,
     /// What it is to the unit.
     pub role: Role,
     /// Where the first variable of the path is declared: the item, and the index among its variables.
@@ -85,6 +89,8 @@ pub struct BoundGlobal {
     pub scalar: Scalar,
     /// The enumeration that the type is, if it is one.
     pub enumeration: Option<ItemId>,
+    /// The values of the enumeration with their names.
+    pub labels: Vec<(u64, String)>,
     /// What its value satisfies.
     pub constraint: Option<Term>,
     /// Where it is declared.

@@ -58,10 +58,33 @@ impl Binder<'_> {
         Ok(Some(self.read(&way, type_, ago, place)))
     }
 
+    /// The values of an enumeration as bits, with their names.
+    pub(super) fn labels(&self, type_: &Type) -> Vec<(u64, String)> {
+        let scalar = type_.scalar().unwrap_or(BOOL);
+        self.values(type_).into_iter().map(|(name, number)| (scalar.bits(number), name)).collect()
+    }
+
+    /// The declared initial value; that of the type where it is no constant, or the variable is a part of another one.
+    fn initial(&mut self, way: &Way, type_: &Type, place: Place) -> u64 {
+        let first = self.values(type_).first().map_or(0, |(_, number)| *number);
+        let least = type_.range().map_or(first, |(low, high)| 0.clamp(low, high));
+        let default = type_.scalar().map_or(0, |scalar| scalar.bits(least));
+        let whole = !way.text.contains(['[', '.']) || way.role == Role::Global;
+        match self.constant_value(way, place).map(Operand::settled) {
+            Some(Ok((Expr { kind: ExprKind::Const(bits), .. }, _))) if whole => bits,
+            _ => default,
+        }
+    }
+
     /// The value of a variable that is declared as a constant, where its initial value is an expression over such.
     fn constant_variable(&mut self, way: &Way, place: Place) -> Option<Operand<Leaf>> {
-        let variable =
-            self.catalogue.item(way.root.0).variables.get(way.root.1).filter(|variable| variable.constant)?;
+        self.catalogue.item(way.root.0).variables.get(way.root.1).filter(|variable| variable.constant)?;
+        self.constant_value(way, place)
+    }
+
+    /// What a variable is declared to begin with.
+    fn constant_value(&mut self, way: &Way, place: Place) -> Option<Operand<Leaf>> {
+        let variable = self.catalogue.item(way.root.0).variables.get(way.root.1)?;
         let Shape::Scalar(type_) = &way.shape else { return None };
         // A constant that is made of itself has no value.
         if self.calls.contains(&way.text) {
@@ -86,13 +109,16 @@ impl Binder<'_> {
                 Type::Enumeration { item, .. } => *item,
                 _ => None,
             };
-            let (path, range) = (way.text.clone(), type_.range());
+            let (path, range, labels) = (way.text.clone(), type_.range(), self.labels(&type_));
+            let initial = self.initial(way, &type_, place);
             self.by_path.insert(path.clone(), self.variables.len());
             self.variables.push(BoundVariable {
                 path,
                 scalar,
                 enumeration,
+                labels,
                 range,
+                initial,
                 role: way.role,
                 root: way.root,
                 place,

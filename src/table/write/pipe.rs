@@ -56,7 +56,7 @@ pub(super) fn heading(table: &Table) -> String {
     format!("@gtt {}{tail}", table.name)
 }
 
-pub(super) fn header_cell(column: &Column) -> String {
+pub(in crate::table) fn header_cell(column: &Column) -> String {
     let subject = subject_text(&column.subject);
     let ty = column.ty.as_ref().map_or_else(String::new, |ty| format!(" : {}", ty.text));
     let plain = matches!(&column.subject, Subject::Variable(_)) && subject == column.name;

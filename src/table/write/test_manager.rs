@@ -43,31 +43,43 @@ fn step(table: &Table, row: &Row, cells: &[Option<&Cell>], out: &mut String, los
     for (at, column) in table.columns.iter().enumerate().filter(|(_, column)| column.kind.is_assumption()) {
         // What was set stays set.
         if row.cells[at].is_some() {
-            entries(row, column, cells[at], true, out, lost);
+            entries((row, table.options.concrete), column, cells[at], true, out, lost);
         }
     }
     *out += "</inputs>\n                <conditions>";
     for (at, column) in table.columns.iter().enumerate().filter(|(_, column)| !column.kind.is_assumption()) {
-        entries(row, column, cells[at], false, out, lost);
+        entries((row, table.options.concrete), column, cells[at], false, out, lost);
     }
     *out += "</conditions>\n                ";
     *out += &duration(row, lost);
     *out += "\n            </teststep>\n";
 }
 
-fn entries(row: &Row, column: &Column, cell: Option<&Cell>, set: bool, out: &mut String, lost: &mut Vec<String>) {
+fn entries(
+    (row, concrete): (&Row, bool),
+    column: &Column,
+    cell: Option<&Cell>,
+    set: bool,
+    out: &mut String,
+    lost: &mut Vec<String>,
+) {
     let Some(constraint) = cell.and_then(|cell| cell.constraint.as_ref()) else { return };
     let variable = escaped(&super::subject_text(&column.subject));
     for chunk in &constraint.chunks {
         let entry = match (&chunk.kind, set) {
             (ChunkKind::Any, _) => continue,
             (ChunkKind::Value(expr) | ChunkKind::Compare(BinaryOp::Eq, expr), true) => {
-                constant(expr).map(|value| format!("<set var=\"{variable}\" value=\"{value}\"/>"))
+                constant(expr, concrete).map(|value| format!("<set var=\"{variable}\" value=\"{value}\"/>"))
             }
-            (ChunkKind::Value(expr), false) => constant(expr).map(|value| check(&variable, "=", &value)),
-            (ChunkKind::Compare(op, expr), false) => constant(expr).map(|value| check(&variable, sign(*op), &value)),
+            (ChunkKind::Value(expr), false) => constant(expr, concrete).map(|value| check(&variable, "=", &value)),
+            (ChunkKind::Compare(op, expr), false) => {
+                constant(expr, concrete).map(|value| check(&variable, sign(*op), &value))
+            }
             (ChunkKind::Interval(interval), false) if interval.low_closed && interval.high_closed => {
-                let ends = (interval.low.as_ref().and_then(constant), interval.high.as_ref().and_then(constant));
+                let ends = (
+                    interval.low.as_ref().and_then(|end| constant(end, concrete)),
+                    interval.high.as_ref().and_then(|end| constant(end, concrete)),
+                );
                 match ends {
                     (Some(low), Some(high)) => {
                         Some(format!("<checkrange var=\"{variable}\" lower=\"{low}\" upper=\"{high}\"/>"))
@@ -102,12 +114,14 @@ const fn sign(op: BinaryOp) -> &'static str {
 }
 
 /// The text of a constant; names are none, unless they are values of enumerations.
-fn constant(expr: &Expr) -> Option<String> {
+fn constant(expr: &Expr, concrete: bool) -> Option<String> {
     if let ExprKind::Literal(Literal { value: LiteralValue::Bool(value), .. }) = &expr.kind {
         return Some(if *value { "TRUE" } else { "FALSE" }.to_owned());
     }
     let is_constant = match &expr.kind {
         ExprKind::Literal(_) | ExprKind::EnumValue { .. } => true,
+        // In a concrete table, a name is a value of an enumeration.
+        ExprKind::Name(path) => concrete && path.is_plain(),
         ExprKind::Unary(UnaryOp::Minus | UnaryOp::Plus, inner) => matches!(inner.kind, ExprKind::Literal(_)),
         _ => false,
     };

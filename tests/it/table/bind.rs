@@ -289,3 +289,82 @@ fn variables_are_listed_once_with_their_declared_paths() {
     assert_eq!(paths, ["Level", "Timer.Q", "Small", "Points[2].X"]);
     assert_eq!(bound.depths(), [0, 0, 0, 2]);
 }
+
+fn lints(table: &str, codes: &[&str]) -> Vec<String> {
+    let project = project(table);
+    let own = project.findings.iter().filter(|f| codes.contains(&f.code.name));
+    own.map(|f| format!("{} {}", f.code.name, f.message)).collect()
+}
+
+fn rows(rows: &str) -> String {
+    format!("@gtt T\n| # | in Level | in Lamp | out Pump | out Count | dur |\n|---|---|---|---|---|---|\n{rows}")
+}
+
+#[test]
+fn contradictions_are_decided_and_name_their_cells() {
+    let codes = ["table-contradiction", "table-no-input", "table-never-reached"];
+    let one = |text: &str| lints(&rows(text), &codes);
+    assert_eq!(one("| 1 | > 5, < 7 | <> RED | - | - | 1 |\n"), [""; 0]);
+    assert_eq!(
+        one("| 1 | 1 | - | - | - | 1 |\n| 2 | > 5, < 6 | - | - | - | 1 |\n| 3 | 2 | - | T | - | 1 |\n"),
+        [
+            "table-contradiction no value satisfies `Level: > 5, < 6`",
+            "table-never-reached row `3` is never reached: no inputs lead to it",
+        ]
+    );
+    // No value of the enumeration is left; the outputs contradict each other.
+    assert_eq!(
+        one("| 1 | - | <> RED, <> GREEN, <> BLUE | - | - | 1 |\n"),
+        [
+            "table-no-input no inputs satisfy the beginning of `T`, so no run is covered by it",
+            "table-contradiction no value satisfies `Lamp: <> RED, <> GREEN, <> BLUE`",
+        ]
+    );
+    assert_eq!(
+        one("| 1 | - | - | = Count > 5 | = SEL(Pump, 7, 3) | 1 |\n"),
+        ["table-contradiction no values satisfy `Pump: = Count > 5` and `Count: = SEL(Pump, 7, 3)` in row `1`"]
+    );
+    assert_eq!(one("| 1 | - | - | = Count > 5 | = SEL(Pump, 3, 7) | 1 |\n"), [""; 0]);
+}
+
+#[test]
+fn rows_that_the_inputs_do_not_tell_apart_are_told_with_an_example() {
+    let one = |text: &str| lints(&rows(text), &["table-overlap"]);
+    assert_eq!(one("| 1 | < 5 | - | - | - | - |\n| 2 | >= 5 | - | - | - | 1 |\n"), [""; 0]);
+    assert_eq!(
+        one("| 1 | <= 5 | - | - | - | - |\n| 2 | >= 5 | - | - | - | 1 |\n"),
+        ["table-overlap rows `1` and `2` admit the same inputs, as `Level = 5`"]
+    );
+    assert_eq!(one("| 1 | <= 5 | - | - | - | -p |\n| 2 | >= 5 | - | - | - | 1 |\n"), [""; 0]);
+    assert_eq!(one("| 1 | <= 5 | - | - | - | 7 |\n| 2 | >= 5 | - | - | - | 1 |\n"), [""; 0]);
+}
+
+/// How long a table of 500 rows and 40 columns takes to bind; `-- --ignored --nocapture bound_large` prints it.
+#[test]
+#[ignore = "measures"]
+fn a_bound_large_table_is_measured() {
+    let names = |name: &str| (0..20).map(|at| format!("{name}{at} : INT; ")).collect::<String>();
+    let block = format!(
+        "FUNCTION_BLOCK FB VAR_INPUT {} END_VAR VAR_OUTPUT {} END_VAR END_FUNCTION_BLOCK",
+        names("i"),
+        names("o")
+    );
+    let columns: Vec<String> =
+        (0..40).map(|at| if at < 20 { format!("in i{at}") } else { format!("out o{}", at - 20) }).collect();
+    let mut table = format!("@gtt Large\n| # | {} | dur |\n|{}\n", columns.join(" | "), "---|".repeat(42));
+    for row in 0..500 {
+        let cells: Vec<String> = (0..40).map(|at| format!(">= {row}, <= {at} + 500")).collect();
+        table += &format!("| {row} | {} | {} |\n", cells.join(" | "), ["[1,10]", "-", "5", ">= 2 p"][row % 4]);
+    }
+    let start = std::time::Instant::now();
+    let project = support::project(&[("a.st", &block), ("FB.gtt.md", &table)], "");
+    eprintln!("read, bound and looked through {:?}", start.elapsed());
+    let attached = &project.tables[0];
+    let start = std::time::Instant::now();
+    let unit = attached.item.expect("its block is known");
+    let (bound, findings) = rungbook::table::bind::bind(&attached.table, &project.catalogue, &project.names, unit);
+    let middle = start.elapsed();
+    let automaton = rungbook::table::automaton::Automaton::build(&attached.table).expect("it has one");
+    eprintln!("bound {middle:?}, unrolled {:?}", start.elapsed() - middle);
+    assert_eq!((bound.rows.len(), findings.len(), automaton.leaves.len()), (500, 0, 500));
+}

@@ -160,7 +160,7 @@ fn every_case_of_the_list_reads_as_it_says() {
             judge(&case, path, &tables, &findings);
         }
     }
-    assert_eq!(seen, 20);
+    assert_eq!(seen, 19);
 }
 
 /// Whether a file of a case was read as the case says.
@@ -184,6 +184,11 @@ fn judge(case: &Case, path: &str, tables: &[rungbook::table::AttachedTable], fin
         // This file alone has a column for a variable that the code does not have; its sessions do not.
         "s_counterexample_1" if path.ends_with("/constraint_spec_counterexample_valid_1.xml") => {
             is(&["table-unknown-name \"neg_val\" `Monitor_Start_Stop` has no variable `neg_val`"]);
+        }
+        // What geteta is given has the prefix of another tool's names in it.
+        "s_valid_1" | "s_counterexample_1" if path.contains("geteta_input") => {
+            let prefixed = |f: &String| f.starts_with("table-unknown-name") && f.contains("no variable `var_");
+            assert!(findings.iter().all(prefixed), "{path} {findings:?}");
         }
         "x_issue1" => {
             for name in ["var_A", "var_B", "var_C", "var_D"] {

@@ -4,6 +4,7 @@
 mod check;
 mod convert;
 mod fmt;
+mod instances;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -33,6 +34,8 @@ enum TableCommand {
     Convert(ConvertArgs),
     /// Align pipe tables where they stand, in comments and Markdown, and touch nothing else
     Fmt(FmtArgs),
+    /// Make concrete test tables from a generalized one, with values that satisfy it
+    Instances(InstancesArgs),
 }
 
 /// What a table leaves to the caller.
@@ -92,11 +95,52 @@ struct FmtArgs {
     check: bool,
 }
 
+#[derive(Debug, Args)]
+struct InstancesArgs {
+    /// Name of the table, or the file that holds it
+    #[arg(value_name = "TABLE")]
+    table: String,
+    #[command(flatten)]
+    tree: crate::cli::args::TreeArgs,
+    /// File to write; `-` for stdout
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    output: PathBuf,
+    /// Form to write: pipe, gtt, csv, xlsx, ods, test-manager, tcunit [default: by the name of OUT, else pipe]
+    #[arg(long, value_name = "FORM")]
+    to: Option<String>,
+    /// How instances are chosen
+    #[arg(long, value_enum, value_name = "HOW", default_value_t = How::Covering)]
+    by: How,
+    /// How many at most
+    #[arg(long, value_name = "NUMBER", default_value_t = 100)]
+    count: usize,
+    /// From what is drawn
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    seed: u64,
+    /// How many cycles a row without end lasts
+    #[arg(long, value_name = "CYCLES", default_value_t = 5)]
+    forever: u64,
+}
+
+/// How instances are chosen.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum How {
+    /// Every row, and both bounds of every duration
+    Covering,
+    /// The lowest and the highest values
+    Boundary,
+    /// Each two of durations and inputs at each combination of lowest and highest
+    Pairwise,
+    /// Drawn ways and values
+    Random,
+}
+
 pub(crate) fn run(args: &TableArgs) -> Result<Exit, Failure> {
     match &args.command {
         TableCommand::Check(args) => check::run(args),
         TableCommand::Convert(args) => convert::run(args),
         TableCommand::Fmt(args) => fmt::run(args),
+        TableCommand::Instances(args) => instances::run(args),
     }
 }
 
