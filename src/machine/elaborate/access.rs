@@ -1,20 +1,17 @@
 //! What stands left of `:=` or is read: variables, fields, elements, bits, what references refer to, properties.
 
-use std::sync::Arc;
-
 use super::classes::layout_key;
 use super::{Elaborator, Lowered};
 use crate::library::names::fold;
 use crate::library::{ItemId, ItemKind};
-use crate::machine::program::{Base, Index, Location};
+use crate::machine::program::{Base, Location};
 use crate::semantics::expr::{Expr, ExprKind};
 use crate::semantics::scalar::Scalar;
 use crate::semantics::typing::types::is_whole;
 use crate::semantics::typing::{Operand, Type};
 use crate::syntax::Node;
-use crate::syntax::ast::{BitExpression, Expression, FieldExpression, IndexExpression};
+use crate::syntax::ast::{Expression, FieldExpression};
 
-use super::constants::is_constant;
 use super::expressions::Val;
 
 /// A place in memory with its type.
@@ -103,6 +100,9 @@ impl<'c> Elaborator<'c> {
                 }
             }
             Designated::Item(item) if self.world.item(item).kind == ItemKind::Program => self.program_instance(item),
+            Designated::Item(item) if self.data_block(item)?.is_some() => {
+                self.data_block(item)?.ok_or_else(|| self.incomplete(node))
+            }
             Designated::Value(operand) => self.kept(operand),
             Designated::Path(path) => Err(self.unknown(&path.join("."), node)),
             _ => Err(self.unsupported("a value where a variable is needed", node, "this is no variable")),
@@ -206,7 +206,7 @@ impl<'c> Elaborator<'c> {
         }
     }
 
-    fn spot_of(&mut self, designated: Designated, node: Node<'c>) -> Lowered<Spot> {
+    pub(super) fn spot_of(&mut self, designated: Designated, node: Node<'c>) -> Lowered<Spot> {
         let spot = match designated {
             Designated::Member { this, item, class } => match self.get_property(&this, item, class, node)? {
                 Val::Memory(spot) => spot,
@@ -224,7 +224,10 @@ impl<'c> Elaborator<'c> {
     fn field_of_item(&mut self, item: ItemId, name: &str, node: Node<'c>) -> Lowered<Designated> {
         let kind = self.world.item(item).kind;
         let found = match kind {
-            ItemKind::GlobalVariables => self.global_named(item, name)?,
+            ItemKind::GlobalVariables => match self.data_block(item)? {
+                Some(block) => return self.field_of_spot(&block, name, node),
+                None => self.global_named(item, name)?,
+            },
             ItemKind::Enum => self.enum_value(item, name)?.map(Designated::Value),
             ItemKind::Program => {
                 let spot = self.program_instance(item)?;
@@ -292,99 +295,18 @@ impl<'c> Elaborator<'c> {
         })
     }
 
-    fn numbered_bit(&mut self, spot: &Spot, number: Option<i128>, name: &str, node: Node<'c>) -> Lowered<Designated> {
+    pub(super) fn numbered_bit(
+        &mut self,
+        spot: &Spot,
+        number: Option<i128>,
+        name: &str,
+        node: Node<'c>,
+    ) -> Lowered<Designated> {
         let width = spot.type_.scalar().map_or(0, Scalar::width);
         match number.and_then(|number| u32::try_from(number).ok()) {
             Some(number) if number < width => Ok(Designated::Bit(spot.clone(), number)),
             _ => Err(self.unsupported("types that do not fit", node, format!("`{}` has no bit `{name}`", spot.type_))),
         }
-    }
-
-    fn bit_of(&mut self, bit: BitExpression<'c>, node: Node<'c>) -> Lowered<Designated> {
-        let base = bit.base().ok_or_else(|| self.incomplete(node))?;
-        let selector = bit.selector().ok_or_else(|| self.incomplete(node))?.text();
-        let digits = selector.strip_prefix("%X").or_else(|| selector.strip_prefix("%x")).unwrap_or(selector);
-        let number = digits.parse::<i128>().ok();
-        if number.is_none() {
-            return Err(self.unsupported(
-                "a part of a bit string",
-                node,
-                format!("the part `{selector}` of a bit string"),
-            ));
-        }
-        match self.designate(base)? {
-            Designated::Value(operand) => {
-                let number = number.and_then(|number| u32::try_from(number).ok()).unwrap_or(u32::MAX);
-                let place = self.place(node);
-                Ok(Designated::Value(crate::semantics::typing::binary::bit(operand, number, place)?))
-            }
-            designated => {
-                let spot = self.spot_of(designated, node)?;
-                self.numbered_bit(&spot, number, digits, node)
-            }
-        }
-    }
-
-    fn element_of(&mut self, index: IndexExpression<'c>, node: Node<'c>) -> Lowered<Designated> {
-        let base = index.base().ok_or_else(|| self.incomplete(node))?;
-        let spot = self.spot(base)?;
-        let indices: Vec<Expression<'c>> = index.indices().collect();
-        let mut location = spot.location.clone();
-        match &spot.type_ {
-            Type::Array(array) if array.dimensions.len() == indices.len() => {
-                let array = Arc::clone(array);
-                let mut stride = self.known_size(&array.element)?;
-                let mut steps = Vec::new();
-                let values = self.operands(&indices)?;
-                for (operand, (low, count)) in values.into_iter().zip(&array.dimensions).rev() {
-                    steps.push(self.index(operand, *low, *count, stride, node)?);
-                    stride = stride.saturating_mul(*count);
-                }
-                steps.reverse();
-                steps.into_iter().for_each(|step| step_into(&mut location, step));
-                Ok(Designated::Spot(Spot { location, type_: array.element.clone(), constant: spot.constant }))
-            }
-            Type::Text { capacity, wide } if indices.len() == 1 => {
-                let (count, wide) = (capacity + 1, *wide);
-                let operand = self.operand(indices[0])?;
-                let step = self.index(operand, 0, count, 1, node)?;
-                step_into(&mut location, step);
-                let type_ = Type::Scalar(Scalar::Bits(if wide { 16 } else { 8 }));
-                Ok(Designated::Spot(Spot { location, type_, constant: spot.constant }))
-            }
-            Type::Reference { .. } => Err(self
-                .unsupported("a pointer with an index", node, "a pointer with an index")
-                .help("write `p^[…]` with a pointer to an array")),
-            other => {
-                let message = format!("{} indices on a value of type `{other}`", indices.len());
-                Err(self.unsupported("types that do not fit", node, message))
-            }
-        }
-    }
-
-    fn index(
-        &mut self,
-        operand: Operand<Location>,
-        low: i64,
-        count: u32,
-        stride: u32,
-        node: Node<'c>,
-    ) -> Lowered<Index> {
-        let name = operand.type_name();
-        let (value, _) = operand.settled()?;
-        if !is_whole(value.scalar) {
-            return Err(self.unsupported("types that do not fit", node, format!("an index of type `{name}`")));
-        }
-        Ok(Index { value, low, count, stride })
-    }
-
-    /// The `n`th element of an array in memory.
-    pub(super) fn element(&mut self, spot: &Spot, n: usize) -> Lowered<Spot> {
-        let Type::Array(array) = &spot.type_ else { return Ok(spot.clone()) };
-        let size = self.known_size(&array.element)?;
-        let mut location = spot.location.clone();
-        location.offset += size.saturating_mul(u32::try_from(n).unwrap_or(u32::MAX));
-        Ok(Spot { location, type_: array.element.clone(), constant: spot.constant })
     }
 
     /// The location with every part that is calculated kept in a temporary slot, so that it stays the same.
@@ -412,17 +334,4 @@ impl<'c> Elaborator<'c> {
 /// What a reference refers to.
 pub(super) fn referent(reference: Expr<Location>) -> Location {
     Location { base: Base::Referent(Box::new(reference)), offset: 0, indices: Vec::new() }
-}
-
-/// Goes into an array; a constant index that is within moves the offset.
-fn step_into(location: &mut Location, step: Index) {
-    if let Some(number) =
-        is_constant(&Operand::of(step.value.clone())).then(|| Operand::of(step.value.clone()).number()).flatten()
-        && let Ok(n) = u32::try_from(number - i128::from(step.low))
-        && n < step.count
-    {
-        location.offset += n.saturating_mul(step.stride);
-        return;
-    }
-    location.indices.push(step);
 }

@@ -5,28 +5,17 @@ use std::rc::Rc;
 use super::access::{Designated, Spot};
 use super::classes::LayoutKey;
 use super::expressions::Val;
-use super::routines::{Frame, Parameter, RoutineKey};
+use super::routines::{Frame, RoutineKey};
 use super::{Elaborator, Lowered};
-use crate::library::names::fold;
 use crate::library::{ItemId, ItemKind, Section};
 use crate::machine::program::{Base, Location, StatementKind};
 use crate::semantics::scalar::Scalar;
 use crate::semantics::typing::convert::logical;
 use crate::semantics::typing::{Operand, Type, constant, functions};
 use crate::syntax::Node;
-use crate::syntax::ast::{Argument, ArgumentKind, AstNode, CallExpression, Expression, UnaryOperator};
+use crate::syntax::ast::{AstNode, CallExpression, Expression, UnaryOperator};
 
 use super::texts;
-
-/// The arguments of a call, by what they are for.
-struct Arguments<'c> {
-    /// Parameter and value, in the order of the text.
-    given: Vec<(usize, Expression<'c>)>,
-    /// Output parameter, target, and whether it is negated.
-    outputs: Vec<(usize, Expression<'c>, bool)>,
-    enable: Option<Expression<'c>>,
-    enabled: Option<Expression<'c>>,
-}
 
 impl<'c> Elaborator<'c> {
     /// A call; what it gives, if anything.
@@ -69,6 +58,13 @@ impl<'c> Elaborator<'c> {
                     let spot = self.program_instance(item)?;
                     self.call_instance(&spot, item, call).map(|()| None)
                 }
+                ItemKind::GlobalVariables => match self.data_block(item)? {
+                    Some(spot) => match spot.type_.clone() {
+                        Type::Instance { item, .. } => self.call_instance(&spot, item, call).map(|()| None),
+                        _ => Err(self.unsupported("types that do not fit", node, "a call of a data block")),
+                    },
+                    None => Err(self.unsupported("types that do not fit", node, "a call of a list of globals")),
+                },
                 _ => match name.filter(|name| is_known(name)) {
                     Some(name) => self.standard_call(name, call),
                     None => Err(self.unsupported("types that do not fit", node, "a call of a type")),
@@ -104,42 +100,19 @@ impl<'c> Elaborator<'c> {
         self.emit(StatementKind::Call { routine, this: Some(this.location.clone()) });
     }
 
-    /// Sorts the arguments of a call by the parameters of what is called.
-    fn arguments(
-        &self,
-        call: CallExpression<'c>,
-        parameters: &[(String, Section)],
-        callee: &str,
-    ) -> Lowered<Arguments<'c>> {
-        let mut sorted = Arguments { given: Vec::new(), outputs: Vec::new(), enable: None, enabled: None };
-        let positions: Vec<usize> = (0..parameters.len()).filter(|n| parameters[*n].1 != Section::Output).collect();
-        for (n, argument) in call.arguments().enumerate() {
-            let key = argument.name().map(|name| fold(name.text()));
-            let number = key.as_ref().and_then(|key| parameters.iter().position(|(known, _)| known == key));
-            let Some(value) = argument.value() else { continue };
-            match (argument.kind(), number) {
-                (ArgumentKind::Positional, _) => {
-                    let number = positions.get(n).copied().ok_or_else(|| {
-                        let message = format!("`{callee}` takes {} arguments", positions.len());
-                        self.unsupported("types that do not fit", argument.node(), message)
-                    })?;
-                    sorted.given.push((number, value));
-                }
-                (ArgumentKind::Input, Some(number)) => sorted.given.push((number, value)),
-                (ArgumentKind::Output | ArgumentKind::NegatedOutput, Some(number)) => {
-                    sorted.outputs.push((number, value, argument.kind() == ArgumentKind::NegatedOutput));
-                }
-                (ArgumentKind::Input, None) if key.as_deref() == Some("en") => sorted.enable = Some(value),
-                (ArgumentKind::Output, None) if key.as_deref() == Some("eno") => sorted.enabled = Some(value),
-                (_, None) => return Err(self.no_parameter(callee, argument)),
-            }
-        }
-        Ok(sorted)
-    }
-
-    fn no_parameter(&self, callee: &str, argument: Argument<'c>) -> super::Unsupported {
-        let name = argument.name().map_or("", |name| name.text());
-        self.unsupported("types that do not fit", argument.node(), format!("`{callee}` has no parameter `{name}`"))
+    /// A call of a function of our own with one argument.
+    pub(super) fn call_own(&mut self, name: &str, argument: Val, node: Node<'c>) -> Lowered<Val> {
+        let item = match self.world.path(&[name], self.body.item) {
+            Some(crate::library::names::Found::Item(item)) => item,
+            _ => return Err(self.unknown(name, node)),
+        };
+        let frame = self.frame(item, None)?;
+        let routine = self.routine(RoutineKey::Code(item, None));
+        let parameter = frame.parameters.first().ok_or_else(|| self.incomplete(node))?;
+        self.store(&parameter.spot, argument, node)?;
+        self.emit(StatementKind::Call { routine, this: None });
+        let result = frame.result.clone().ok_or_else(|| self.incomplete(node))?;
+        Ok(self.read(result, node))
     }
 
     /// Does a call only where `EN` holds, and tells `ENO`.
@@ -264,7 +237,7 @@ impl<'c> Elaborator<'c> {
     }
 
     /// The frame of a member's routine, and how it is called.
-    fn resolved(&mut self, this: &Spot, item: ItemId, class: ItemId) -> Lowered<(Rc<Frame>, Target)> {
+    pub(super) fn resolved(&mut self, this: &Spot, item: ItemId, class: ItemId) -> Lowered<(Rc<Frame>, Target)> {
         let referent = matches!(this.location.base, Base::Referent(_));
         match &this.type_ {
             Type::Interface { item: interface, .. } => {
@@ -287,7 +260,7 @@ impl<'c> Elaborator<'c> {
         }
     }
 
-    fn emit_call(&mut self, target: &Target) {
+    pub(super) fn emit_call(&mut self, target: &Target) {
         match target {
             Target::Routine(routine, location) => {
                 self.emit(StatementKind::Call { routine: *routine, this: Some(location.clone()) });
@@ -326,166 +299,10 @@ impl<'c> Elaborator<'c> {
             self.read(spot, node)
         }))
     }
-
-    /// All values first, then the assignments: the same function may be called in its own arguments.
-    fn pass_all(&mut self, parameters: &[Parameter], given: &[(usize, Expression<'c>)], node: Node<'c>) -> Lowered<()> {
-        let mut values: Vec<Val> = Vec::new();
-        for (number, expression) in given {
-            let mark = self.body.out.len();
-            let value = self.argument(&parameters[*number], *expression)?;
-            self.keep_before(mark, &mut values)?;
-            values.push(value);
-        }
-        for ((number, expression), value) in given.iter().zip(values) {
-            let parameter = &parameters[*number];
-            match value {
-                Val::Scalar(Operand::Typed(expr, type_))
-                    if type_ == parameter.spot.type_ && type_.range().is_none() =>
-                {
-                    let target = parameter.spot.location.clone();
-                    self.emit(StatementKind::Assign { target, value: expr, range: None });
-                }
-                value => self.store(&parameter.spot, value, expression.node())?,
-            }
-        }
-        for (number, parameter) in parameters.iter().enumerate() {
-            let left_out = !given.iter().any(|(n, _)| *n == number);
-            match parameter.section {
-                Section::Input if left_out && parameter.has_initial => {
-                    let length = self.known_size(&parameter.spot.type_)?;
-                    let target = parameter.spot.location.clone();
-                    self.emit(StatementKind::Reset { target, length });
-                }
-                Section::InOut if left_out => {
-                    let message = format!("the in-out `{}` is left out", parameter.key);
-                    return Err(self.unsupported("types that do not fit", node, message));
-                }
-                _ => {}
-            }
-        }
-        Ok(())
-    }
-
-    /// The value of an argument: for an in-out, the address.
-    fn argument(&mut self, parameter: &Parameter, expression: Expression<'c>) -> Lowered<Val> {
-        let node = expression.node();
-        let type_ = parameter.spot.type_.clone();
-        match &type_ {
-            Type::Reference { target, .. } if parameter.section == Section::InOut => {
-                let target = target.as_ref().clone();
-                let expr = match self.designate(expression)? {
-                    Designated::Spot(spot) => {
-                        let spot = self.followed(spot);
-                        self.bound(&target, spot, node)?
-                    }
-                    Designated::Path(path) => return Err(self.unknown(&path.join("."), node)),
-                    _ => {
-                        let message = "an in-out that is given no variable";
-                        return Err(self.unsupported("a value where a variable is needed", node, message));
-                    }
-                };
-                Ok(Val::Scalar(Operand::Typed(expr, type_)))
-            }
-            Type::Reference { implicit: true, target } => {
-                let target = target.as_ref().clone();
-                let spot = self.spot(expression)?;
-                let expr = self.bound(&target, spot, node)?;
-                Ok(Val::Scalar(Operand::Typed(expr, type_)))
-            }
-            Type::Reference { .. } | Type::Interface { .. } => {
-                let designated = self.designate(expression)?;
-                let expr = self.reference_value(&type_, designated, node)?;
-                Ok(Val::Scalar(Operand::Typed(expr, type_)))
-            }
-            _ => self.value(expression),
-        }
-    }
-
-    /// The value of a property.
-    pub(super) fn get_property(&mut self, this: &Spot, item: ItemId, class: ItemId, node: Node<'c>) -> Lowered<Val> {
-        let getter = self.accessor(item, ItemKind::Getter, node)?;
-        let (frame, target) = self.resolved(this, getter, class)?;
-        self.emit_call(&target);
-        let result = frame.result.clone().ok_or_else(|| self.incomplete(node))?;
-        let spot = self.followed(result);
-        Ok(self.read(spot, node))
-    }
-
-    /// Assigns to a property.
-    pub(super) fn set_property(
-        &mut self,
-        this: &Spot,
-        item: ItemId,
-        class: ItemId,
-        value: Expression<'c>,
-        node: Node<'c>,
-    ) -> Lowered<()> {
-        let setter = match self.accessor(item, ItemKind::Setter, node) {
-            Ok(setter) => setter,
-            // A property that gives a reference is assigned through it.
-            Err(error) => match self.get_property(this, item, class, node)? {
-                Val::Scalar(Operand::Typed(expr, type_))
-                    if self.world.child(item, "Get", &[ItemKind::Getter]).is_some() =>
-                {
-                    return match expr.kind {
-                        crate::semantics::expr::ExprKind::Read(location @ Location { base: Base::Referent(_), .. }) => {
-                            self.assign_value(&Spot { location, type_, constant: false }, value)
-                        }
-                        _ => Err(error),
-                    };
-                }
-                _ => return Err(error),
-            },
-        };
-        let (frame, target) = self.resolved(this, setter, class)?;
-        let parameter = frame.parameters.last().cloned().ok_or_else(|| self.incomplete(node))?;
-        self.pass_all(std::slice::from_ref(&parameter), &[(0, value)], node)?;
-        self.emit_call(&target);
-        Ok(())
-    }
-
-    fn accessor(&self, property: ItemId, kind: ItemKind, node: Node<'c>) -> Lowered<ItemId> {
-        let found = self.world.children(property).find(|child| self.world.item(*child).kind == kind);
-        found.ok_or_else(|| {
-            let name = &self.world.item(property).name;
-            let what = if kind == ItemKind::Getter { "read" } else { "written" };
-            self.unsupported("types that do not fit", node, format!("the property `{name}` cannot be {what}"))
-        })
-    }
-
-    /// `FB_Init` with the arguments of a declaration.
-    pub(super) fn call_constructor(
-        &mut self,
-        class: ItemId,
-        method: ItemId,
-        location: &Location,
-        arguments: &[Argument<'c>],
-    ) -> Lowered<()> {
-        let frame = self.frame(method, Some(class))?;
-        let inputs: Vec<Parameter> =
-            frame.parameters.iter().filter(|parameter| parameter.section == Section::Input).cloned().collect();
-        let mut given = Vec::new();
-        for (n, argument) in arguments.iter().enumerate() {
-            let key = argument.name().map(|name| fold(name.text()));
-            let number = match &key {
-                Some(key) => inputs.iter().position(|parameter| parameter.key == *key),
-                None => Some(n + 2),
-            };
-            if let (Some(number), Some(value)) = (number.filter(|number| *number < inputs.len()), argument.value()) {
-                given.push((number, value));
-            }
-        }
-        if let Some(node) = self.world.node(method) {
-            self.pass_all(&inputs, &given, node)?;
-        }
-        let routine = self.routine(RoutineKey::Code(method, Some(class)));
-        self.emit(StatementKind::Call { routine, this: Some(location.clone()) });
-        Ok(())
-    }
 }
 
 /// How a member's routine is called.
-enum Target {
+pub(super) enum Target {
     /// As it is, on an instance.
     Routine(crate::machine::program::RoutineId, Location),
     /// By the class of the instance.

@@ -3,6 +3,7 @@
 use super::{Elaborator, Lowered};
 use crate::machine::program::{Arm, StatementKind};
 use crate::semantics::scalar::Scalar;
+use crate::semantics::typing::literal::{self, Constant};
 use crate::semantics::typing::types::is_whole;
 use crate::syntax::Node;
 use crate::syntax::ast::{AstNode, CaseStatement, Expression, Range};
@@ -41,6 +42,12 @@ impl<'c> Elaborator<'c> {
             return self.range(range, scope);
         }
         let expression = Expression::cast(node).ok_or_else(|| self.incomplete(node))?;
+        if let Expression::Literal(literal) = expression
+            && let Ok(Constant::Text(codes, _)) = literal::of(literal)
+            && let [code] = codes.as_slice()
+        {
+            return Ok((i128::from(*code), i128::from(*code)));
+        }
         let number = self.constant_number(expression, scope)?;
         Ok((number, number))
     }

@@ -10,10 +10,13 @@ use std::rc::Rc;
 use crate::syntax::ast::pragma_text;
 use crate::syntax::{Node, TokenKind, Tree};
 
+/// Half-open ranges of tokens.
+type Ranges = Vec<(u32, u32)>;
+
 /// The ranges of tokens that are left out, for each tree that was asked for.
 pub(super) struct Excluded {
     symbols: BTreeSet<String>,
-    known: RefCell<BTreeMap<usize, Rc<Vec<(u32, u32)>>>>,
+    known: RefCell<BTreeMap<usize, Rc<Ranges>>>,
 }
 
 impl Excluded {
@@ -40,7 +43,7 @@ struct Open {
     from: Option<u32>,
 }
 
-fn ranges(tree: &Tree, symbols: &BTreeSet<String>) -> Vec<(u32, u32)> {
+fn ranges(tree: &Tree, symbols: &BTreeSet<String>) -> Ranges {
     let mut out = Vec::new();
     let mut open: Vec<Open> = Vec::new();
     for token in tree.tokens().filter(|token| token.kind() == TokenKind::Pragma) {

@@ -37,6 +37,10 @@ impl<'c> Elaborator<'c> {
             }
             _ => {}
         }
+        if let ([argument], Some(conversion)) = (arguments.as_slice(), texts::conversion(&upper)) {
+            let value = argument.value().ok_or_else(|| self.incomplete(node))?;
+            return self.text_conversion(conversion, value, node).map(Some);
+        }
         let text = texts::function(&upper);
         if text.is_none() && !functions::is_standard(&upper) {
             return Err(self.without_body(&upper, name, node));

@@ -160,6 +160,32 @@ impl<'c> Elaborator<'c> {
         self.global(item, n).map(|spot| Some(Designated::Spot(spot)))
     }
 
+    /// The variable that a Siemens data block of a named type is.
+    pub(super) fn data_block(&mut self, item: ItemId) -> Lowered<Option<Spot>> {
+        if let Some(known) = self.statics.get(&(item, usize::MAX)) {
+            return Ok(Some(known.clone()));
+        }
+        if self.world.item(item).kind != ItemKind::GlobalVariables {
+            return Ok(None);
+        }
+        let Some(type_) = self.world.header_type(item).filter(|type_| !matches!(type_, ast::Type::Struct(_))) else {
+            return Ok(None);
+        };
+        let type_ = self.resolve(type_, item)?;
+        let values = self.defaults(&type_)?.values;
+        let name = self.world.item(item).name.clone();
+        let placement =
+            super::memory::Placement { name: name.clone(), role: Role::State, place: self.world.place_of(item) };
+        let slot = self.put(&type_, &values, &placement)?;
+        let length = self.known_size(&type_)?;
+        let kind = GlobalKind::Variable;
+        self.globals.push(Global { slot, length, path: name, type_: type_.clone(), kind, constant: false });
+        let spot = Spot { location: super::memory::at(slot), type_, constant: false };
+        self.statics.insert((item, usize::MAX), spot.clone());
+        self.cone.insert(item);
+        Ok(Some(spot))
+    }
+
     fn global(&mut self, item: ItemId, n: usize) -> Lowered<Spot> {
         let decl = self.decls(item)[n];
         if let Some(address) = decl.address().filter(|address| !address.ends_with('*')) {

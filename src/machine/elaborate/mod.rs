@@ -8,12 +8,15 @@
 //! Nothing here stops at the first construct that is not modelled: each is told with its place, and the rest goes on.
 
 mod access;
+mod arguments;
 mod calls;
 mod cases;
 mod classes;
 mod conditional;
 mod constants;
+mod control;
 mod dispatch;
+mod elements;
 mod expressions;
 mod finish;
 mod functions;
@@ -22,6 +25,7 @@ mod lookup;
 mod memory;
 mod operators;
 mod pointers;
+mod properties;
 mod routines;
 mod sfc;
 mod shelf;

@@ -98,7 +98,8 @@ impl<'c> Elaborator<'c> {
             _ => return Ok(None),
         };
         let Type::Reference { target, .. } = type_ else { return Ok(None) };
-        let bytes = target.scalar().map(|scalar| i128::from(scalar.width().div_ceil(8)));
+        let scalar = self.leading_scalar(target)?;
+        let bytes = scalar.map(|scalar| i128::from(scalar.width().div_ceil(8)));
         let fail = || self.unsupported("pointer arithmetic", node, format!("arithmetic with a pointer to `{target}`"));
         let bytes = bytes.ok_or_else(fail)?;
         let steps = match number.number() {

@@ -284,6 +284,9 @@ impl<'c> Elaborator<'c> {
             _ => item,
         };
         let Some(type_) = self.world.header_type(typed) else { return Ok(()) };
+        if type_.node().text().eq_ignore_ascii_case("VOID") {
+            return Ok(());
+        }
         let type_ = self.resolve(type_, typed)?;
         let values = self.defaults(&type_)?.values;
         let name = fold(&self.world.item(typed).name);

@@ -20,7 +20,8 @@ pub(super) struct Shelf {
 /// The standard blocks, parsed once.
 pub(super) fn standard() -> &'static Shelf {
     static SHELF: OnceLock<Shelf> = OnceLock::new();
-    SHELF.get_or_init(|| Shelf::parse(crate::machine::standard::SOURCES.iter().copied()))
+    let own = std::iter::once(("library", include_str!("library.st")));
+    SHELF.get_or_init(|| Shelf::parse(crate::machine::standard::SOURCES.iter().copied().chain(own)))
 }
 
 impl Shelf {

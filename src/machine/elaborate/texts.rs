@@ -7,10 +7,11 @@ use crate::machine::program::{Location, StatementKind, Text, TextOperation, Text
 use crate::semantics::expr::{Expr, ExprKind, Op};
 use crate::semantics::scalar::Scalar;
 use crate::semantics::typing::binary::binary;
-use crate::semantics::typing::types::{INT, is_whole};
-use crate::semantics::typing::{Operand, Type, apply, constant};
+use crate::semantics::typing::convert::assigned;
+use crate::semantics::typing::types::{INT, elementary, is_whole, name as scalar_name};
+use crate::semantics::typing::{Operand, Type, apply, constant, converted};
 use crate::syntax::Node;
-use crate::syntax::ast::BinaryOperator;
+use crate::syntax::ast::{BinaryOperator, Expression};
 
 /// The longest result of a function on strings, as CODESYS and TwinCAT have it.
 const LONGEST: u32 = 255;
@@ -35,7 +36,63 @@ pub(super) fn function(name: &str) -> Option<(&'static str, usize)> {
     FUNCTIONS.iter().find(|(known, _)| *known == upper || *known == plain).copied()
 }
 
+/// A conversion between integers and strings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Conversion {
+    /// `STRING_TO_INT`.
+    FromText(Scalar),
+    /// `INT_TO_STRING`, or `TO_STRING` of anything.
+    ToText(Option<Scalar>),
+}
+
+/// The conversion between integers and strings that a function is.
+pub(super) fn conversion(name: &str) -> Option<Conversion> {
+    let upper = name.to_ascii_uppercase();
+    let simple = |name: &str| elementary(name).filter(|scalar| is_whole(*scalar) || *scalar == Scalar::Bool);
+    match upper.split_once("_TO_") {
+        Some(("STRING", to)) => simple(to).filter(|scalar| *scalar != Scalar::Bool).map(Conversion::FromText),
+        Some((from, "STRING")) => simple(from).map(|scalar| Conversion::ToText(Some(scalar))),
+        _ => (upper == "TO_STRING").then_some(Conversion::ToText(None)),
+    }
+}
+
 impl<'c> Elaborator<'c> {
+    /// A conversion between integers and strings.
+    pub(super) fn text_conversion(
+        &mut self,
+        conversion: Conversion,
+        value: Expression<'c>,
+        node: Node<'c>,
+    ) -> Lowered<Val> {
+        let value = self.value(value)?;
+        let from = match conversion {
+            Conversion::FromText(to) => {
+                let number = self.call_own("__TEXT_TO_NUMBER", value, node)?;
+                let (number, _) = self.scalar(number, node)?.settled()?;
+                return Ok(Val::Scalar(Operand::of(converted(number, to))));
+            }
+            Conversion::ToText(from) => from,
+        };
+        if value.is_text() {
+            return Ok(value);
+        }
+        let operand = self.scalar(value, node)?;
+        let expr = match from {
+            Some(from) => assigned(operand, &Type::Scalar(from))?.expr,
+            None => operand.settled()?.0,
+        };
+        let function = match expr.scalar {
+            Scalar::Bool => "__BOOL_TO_TEXT",
+            Scalar::Int { signed: true, .. } => "__SIGNED_TO_TEXT",
+            Scalar::Int { .. } | Scalar::Bits(_) => "__UNSIGNED_TO_TEXT",
+            other => {
+                let message = format!("a conversion of `{}` to a string", scalar_name(other));
+                return Err(self.unsupported("a conversion between numbers and strings", node, message));
+            }
+        };
+        self.call_own(function, Val::Scalar(Operand::of(expr)), node)
+    }
+
     /// A string in memory; a literal gets slots of its own.
     pub(super) fn text(&mut self, value: Val, node: Node<'c>) -> Lowered<(Text, bool)> {
         match value {

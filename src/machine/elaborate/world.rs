@@ -284,7 +284,9 @@ impl<'c> World<'c> {
         let mut all = Vec::new();
         for section in self.sections(id).into_iter().filter(|section| !self.is_excluded(section.node())) {
             let kind = section_of(section.kind(), self.item(id).kind);
-            self.declarations(section.variables(), kind, section.is_constant(), &mut all);
+            // An input that the body may not write is a variable all the same.
+            let parameter = matches!(kind, Section::Input | Section::InOut | Section::Output);
+            self.declarations(section.variables(), kind, section.is_constant() && !parameter, &mut all);
         }
         if let Some(fields) = self.data_block_fields(id) {
             self.declarations(fields.fields(), Section::Global, false, &mut all);

@@ -43,7 +43,7 @@ END_FUNCTION_BLOCK
 #[test]
 fn structures_and_arrays_are_copied() {
     let text = "
-TYPE Point : STRUCT x : INT; y : INT; END_STRUCT; Point3 : STRUCT EXTENDS Point z : INT; END_STRUCT; END_TYPE
+TYPE Point : STRUCT x : INT; y : INT; END_STRUCT; Point3 EXTENDS Point : STRUCT z : INT; END_STRUCT; END_TYPE
 FUNCTION_BLOCK FB
 VAR a : Point := (x := 1, y := 2); b : Point; l : ARRAY[1..2] OF Point; k : ARRAY[1..2] OF Point; c : Point3; END_VAR
 b := a;
@@ -108,9 +108,9 @@ v := v + 1;
 END_FUNCTION_BLOCK
 FUNCTION Twice : INT
 VAR_IN_OUT v : INT; END_VAR
-VAR_INPUT by : INT := 5; END_VAR
+VAR_INPUT add : INT := 5; END_VAR
 v := v * 2;
-Twice := by;
+Twice := add;
 END_FUNCTION
 FUNCTION_BLOCK FB
 VAR Inc : FB_Inc; list : ARRAY[1..3] OF INT; i : INT := 2; n : INT; END_VAR
@@ -160,4 +160,26 @@ END_FUNCTION_BLOCK
     let mut machine = Machine::new(text, "FB");
     machine.cycle().cycle();
     assert_eq!((machine.get("x"), machine.get("y")), (1, 17));
+}
+
+#[test]
+fn a_data_block_is_a_variable_of_its_type() {
+    let text = "
+TYPE \"Limits\"
+STRUCT low : INT := 3; high : INT; END_STRUCT;
+END_TYPE
+DATA_BLOCK \"DB\"
+\"Limits\"
+BEGIN
+END_DATA_BLOCK
+FUNCTION_BLOCK \"FB\"
+VAR_OUTPUT x : INT; END_VAR
+BEGIN
+#x := \"DB\".low + 1;
+\"DB\".high := #x;
+END_FUNCTION_BLOCK
+";
+    let mut machine = Machine::new(text, "FB");
+    machine.cycle();
+    assert_eq!((machine.get("x"), machine.get("DB.high")), (4, 4));
 }

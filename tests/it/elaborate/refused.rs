@@ -22,13 +22,13 @@ fn one(place: &str, construct: &str) -> Vec<(String, String)> {
 fn everything_is_told_with_its_place() {
     let text = "FUNCTION_BLOCK FB
 VAR x : INT; END_VAR
-JMP here;
 x := Missing(1);
-here:
+JMP here;
 x := NoSuch;
+here:
 END_FUNCTION_BLOCK
 ";
-    let expected = [("3:1", "a jump"), ("4:6", "a function without source"), ("6:6", "a name without source")];
+    let expected = [("3:6", "a function without source"), ("4:1", "a jump"), ("5:6", "a name without source")];
     assert_eq!(refused(text, "FB"), expected.map(|(a, b)| (a.to_owned(), b.to_owned())));
 }
 

