@@ -2,6 +2,7 @@
 //! interpreter runs on values and the translator turns into a transition system over terms. Two meanings that must agree.
 
 pub mod elaborate;
+pub mod chart;
 pub mod interpret;
 pub mod program;
 pub mod standard;
