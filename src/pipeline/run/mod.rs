@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 
 use super::Project;
 use crate::config::Settings;
+use crate::diagnostic::Severity;
 use crate::library::ItemId;
 use crate::machine::elaborate::{self, elaborate};
 use crate::machine::interpret::{self, Interpreter};
@@ -20,7 +21,7 @@ use crate::machine::program::Program;
 use crate::machine::trace::Trace;
 use crate::recheck::replay::{End, Environment, Subject, replay};
 use crate::table::automaton::{Automaton, NoAutomaton};
-use crate::table::bind::BoundTable;
+use crate::table::bind::{BoundTable, bind};
 
 pub use monitor::{kind, monitor};
 pub use show::{Failure, Outcome};
@@ -44,13 +45,26 @@ impl Default for Options {
     }
 }
 
-/// Why a table cannot be played: one line for each reason.
+/// Why a table cannot be played.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NotPlayed(pub Vec<String>);
+pub struct NotPlayed {
+    /// One line for each reason.
+    pub reasons: Vec<String>,
+    /// Whether the table or what was given with it is wrong, and not only beyond what this tool can play.
+    pub is_wrong: bool,
+}
 
 impl NotPlayed {
     fn because(reason: impl Into<String>) -> Self {
-        Self(vec![reason.into()])
+        Self { reasons: vec![reason.into()], is_wrong: false }
+    }
+
+    fn wrong(reasons: impl IntoIterator<Item = String>) -> Self {
+        Self { reasons: reasons.into_iter().collect(), is_wrong: true }
+    }
+
+    fn beyond(reasons: impl IntoIterator<Item = String>) -> Self {
+        Self { reasons: reasons.into_iter().collect(), is_wrong: false }
     }
 }
 
@@ -58,7 +72,7 @@ impl NotPlayed {
 struct Ready<'a> {
     project: &'a Project,
     index: usize,
-    bound: &'a BoundTable,
+    bound: BoundTable,
     automaton: Automaton,
     cycle_time: u64,
 }
@@ -67,14 +81,19 @@ impl<'a> Ready<'a> {
     fn new(project: &'a Project, settings: &Settings, index: usize) -> Result<Self, NotPlayed> {
         let attached = &project.tables[index];
         let table = &attached.table;
-        if !attached.errors.is_empty() {
-            return Err(NotPlayed(attached.errors.iter().map(|error| error.message.clone()).collect()));
+        if table.has_errors() {
+            return Err(NotPlayed::wrong(attached.errors.iter().map(|error| error.message.clone())));
         }
-        let Some(bound) = &attached.bound else {
-            return Err(NotPlayed::because("the table belongs to no block"));
+        let Some(unit) = attached.item else {
+            return Err(NotPlayed::wrong(["the table belongs to no block".to_owned()]));
         };
+        let (bound, findings) = bind(table, &project.catalogue, &project.names, unit);
+        if bound.errors > 0 {
+            let errors = findings.into_iter().filter(|finding| finding.severity == Severity::Error);
+            return Err(NotPlayed::wrong(errors.map(|finding| finding.message)));
+        }
         if !bound.unsupported.is_empty() {
-            return Err(NotPlayed(bound.unsupported.iter().map(|unsupported| unsupported.what.clone()).collect()));
+            return Err(NotPlayed::beyond(bound.unsupported.iter().map(|unsupported| unsupported.what.clone())));
         }
         let automaton = Automaton::build(table).map_err(|error| {
             NotPlayed::because(match error {
@@ -84,9 +103,7 @@ impl<'a> Ready<'a> {
                 NoAutomaton::TooLarge => "its rows can follow each other in too many ways",
             })
         })?;
-        let own = table.options.cycle.map(|cycle| cycle.nanos).or(settings.tables.all.cycle);
-        let cycle_time = own.and_then(|nanos| u64::try_from(nanos).ok()).filter(|nanos| *nanos > 0);
-        Ok(Self { project, index, bound, automaton, cycle_time: cycle_time.unwrap_or(10_000_000) })
+        Ok(Self { project, index, bound, automaton, cycle_time: cycle_time(project, settings, index) })
     }
 
     fn unit(&self) -> ItemId {
@@ -104,9 +121,16 @@ impl<'a> Ready<'a> {
                 }
                 None => one.message,
             };
-            NotPlayed(list.into_iter().map(line).collect())
+            NotPlayed::beyond(list.into_iter().map(line))
         })
     }
+}
+
+/// The cycle time of a table in nanoseconds: its own, or the configured one, or 10 ms.
+#[must_use]
+pub fn cycle_time(project: &Project, settings: &Settings, index: usize) -> u64 {
+    let own = project.tables[index].table.options.cycle.map(|cycle| cycle.nanos).or(settings.tables.all.cycle);
+    own.and_then(|nanos| u64::try_from(nanos).ok()).filter(|nanos| *nanos > 0).unwrap_or(10_000_000)
 }
 
 /// Plays a table on its block.
@@ -118,21 +142,20 @@ pub fn play(project: &Project, settings: &Settings, index: usize, options: &Opti
     let program = ready.program()?;
     let table = &project.tables[index].table;
     let script = script::script(table, options.cycles, options.repeats).map_err(NotPlayed::because)?;
-    let mut picker = Picker::new(&program, ready.bound).map_err(NotPlayed::because)?;
+    let mut picker = Picker::new(&program, &ready.bound).map_err(NotPlayed::because)?;
     let given = |name: &str| options.globals.iter().find(|(other, _)| other.eq_ignore_ascii_case(name));
     let mut values = BTreeMap::new();
     for (number, global) in ready.bound.globals.iter().enumerate() {
         if let Some((name, text)) = given(&global.name) {
             let kind = show::kind(project, Some(&program), global.scalar, global.enumeration);
-            let wrong = || NotPlayed::because(format!("`{text}` is no value of the global variable `{name}`"));
+            let wrong = || NotPlayed::wrong([format!("`{text}` is no value of the global variable `{name}`")]);
             values.insert(number, crate::semantics::show::parse(&kind, text).ok_or_else(wrong)?);
         }
     }
     picker.pick_globals(&values).map_err(NotPlayed::because)?;
     let interpreter = interpret::Options::default();
     let mut run = Interpreter::with(&program, &interpreter);
-    let mut environment =
-        Environment { globals: picker.globals().to_vec(), slots: picker.slots(), inputs: Vec::new() };
+    let mut environment = Environment { globals: picker.globals().to_vec(), slots: picker.slots(), inputs: Vec::new() };
     for turn in &script {
         let name = || table.rows()[turn.row].id.clone();
         let inputs = picker.pick(&run, turn.row, turn.first);
@@ -147,8 +170,7 @@ pub fn play(project: &Project, settings: &Settings, index: usize, options: &Opti
         }
         picker.end(&run);
     }
-    let subject =
-        Subject { program: &program, options: interpreter, table: ready.bound, automaton: &ready.automaton };
+    let subject = Subject { program: &program, options: interpreter, table: &ready.bound, automaton: &ready.automaton };
     let replay = replay(&subject, &environment);
     Ok(show::outcome(&ready, &program, &environment, &replay))
 }

@@ -35,24 +35,20 @@ pub fn kind(project: &Project, settings: &Settings, index: usize, path: &str) ->
 ///
 /// # Errors
 /// Why it cannot be done.
-pub fn monitor(
-    project: &Project,
-    settings: &Settings,
-    index: usize,
-    trace: &Trace,
-) -> Result<Outcome, NotPlayed> {
+pub fn monitor(project: &Project, settings: &Settings, index: usize, trace: &Trace) -> Result<Outcome, NotPlayed> {
     let ready = Ready::new(project, settings, index)?;
     // Only initial values are needed of the block, and only where cells look back beyond the first cycle.
     let program = ready.program();
     let initial = initial(&ready, program.as_ref().ok());
     if initial.is_none() && ready.bound.depths().iter().any(|depth| *depth > 0) {
-        let mut reasons = program.err().map(|NotPlayed(reasons)| reasons).unwrap_or_default();
-        reasons.insert(0, "cells name values of earlier cycles, and the block's initial values are not known".to_owned());
-        return Err(NotPlayed(reasons));
+        let mut reasons = program.err().map(|error| error.reasons).unwrap_or_default();
+        reasons
+            .insert(0, "cells name values of earlier cycles, and the block's initial values are not known".to_owned());
+        return Err(NotPlayed::beyond(reasons));
     }
     let initial = initial.unwrap_or_else(|| vec![0; ready.bound.variables.len()]);
     let values = values(&ready, trace)?;
-    let choices = choices(ready.bound, &values)?;
+    let choices = choices(&ready.bound, &values)?;
     let mut shown: Option<(Vec<u64>, Played)> = None;
     for globals in choices {
         let played = played(&ready, &values, &initial, &globals);
@@ -100,7 +96,7 @@ fn values(ready: &Ready<'_>, trace: &Trace) -> Result<Vec<Vec<u64>>, NotPlayed> 
         }
     }
     if !missing.is_empty() {
-        return Err(NotPlayed(missing));
+        return Err(NotPlayed::wrong(missing));
     }
     Ok((0..trace.cycles()).map(|cycle| signals.iter().map(|signal| signal.values[cycle]).collect()).collect())
 }
@@ -220,7 +216,7 @@ impl Cells<'_> {
     }
 
     fn failed(&self, sites: &[Site]) -> Vec<Failed> {
-        let bound = self.ready.bound;
+        let bound = &self.ready.bound;
         let mut by_row: BTreeMap<(usize, bool), Vec<usize>> = BTreeMap::new();
         for site in sites {
             let row = self.ready.automaton.leaves[site.leaf].row;

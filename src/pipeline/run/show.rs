@@ -49,12 +49,7 @@ pub struct Failure {
 }
 
 /// How values of a type are written.
-pub(super) fn kind(
-    project: &Project,
-    program: Option<&Program>,
-    scalar: Scalar,
-    enumeration: Option<ItemId>,
-) -> Kind {
+pub(super) fn kind(project: &Project, program: Option<&Program>, scalar: Scalar, enumeration: Option<ItemId>) -> Kind {
     let labels = enumeration.map_or_else(Vec::new, |item| {
         let names = project.catalogue.item(item).variables.iter().map(|value| value.name.clone());
         let values = program.and_then(|program| program.enumerations.get(&item));
@@ -149,7 +144,7 @@ fn failures(ready: &Ready<'_>, trace: &Trace, failed: &Failed) -> Vec<Failure> {
     let effective = table.effective();
     let one = |column: &usize| {
         let cell = effective.get(failed.row).and_then(|row| row.get(*column).copied().flatten());
-        let seen = subject(ready.bound, *column).and_then(|variable| {
+        let seen = subject(&ready.bound, *column).and_then(|variable| {
             let signal = trace.signal(&ready.bound.variables[variable].path)?;
             Some(literal(&signal.kind, *signal.values.last()?))
         });
