@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::Options;
 use super::code::{
-    Address, Area, Arm, Binary, Body, Case, Code, Dispatch, Do, For, If, Loop, Make, Measure, Node, Number, PlaceId, Set,
-    Start, Step, Stop, TextDo,
+    Address, Area, Arm, Binary, Body, Case, Code, Dispatch, Do, For, If, Loop, Make, Measure, Node, Number, PlaceId,
+    Set, Start, Step, Stop, TextDo,
 };
 use crate::machine::program::{Base, Index, Location, Program, Statement, StatementKind, Text, TextOperation, Value};
 use crate::semantics::eval::is_unary;
