@@ -180,6 +180,9 @@ impl<'c> Elaborator<'c> {
         };
         match designated {
             Designated::Path(mut path) => {
+                if let Some(step) = self.step_field(&path, name)? {
+                    return Ok(step);
+                }
                 path.push(name.to_owned());
                 let parts: Vec<&str> = path.iter().map(String::as_str).collect();
                 Ok(self.global_path(&parts)?.unwrap_or(Designated::Path(path)))

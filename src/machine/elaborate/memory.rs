@@ -115,7 +115,8 @@ impl<'c> Elaborator<'c> {
             };
             let slot = self.slots.len();
             self.put_parts(&field.type_, part, &Placement { name, role, place: placement.place })?;
-            if field.decl.is_some_and(|decl| decl.has_attribute("rungbook.elapsed")) {
+            let elapsed = field.decl.is_some_and(|decl| decl.has_attribute("rungbook.elapsed"));
+            if elapsed || (field.decl.is_none() && super::sfc::is_clock(&field.key)) {
                 self.add_clock(slot, &field.type_);
             }
         }

@@ -161,8 +161,15 @@ pub(super) struct If {
 #[derive(Debug)]
 pub(super) struct Case {
     pub(super) selector: Number,
-    pub(super) arms: Vec<(Vec<(i128, i128)>, Vec<Do>)>,
+    pub(super) arms: Vec<Arm>,
     pub(super) otherwise: Vec<Do>,
+}
+
+/// An arm of `CASE`.
+#[derive(Debug)]
+pub(super) struct Arm {
+    pub(super) labels: Vec<(i128, i128)>,
+    pub(super) body: Vec<Do>,
 }
 
 #[derive(Debug)]

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::Options;
 use super::code::{
-    Address, Area, Binary, Body, Case, Code, Dispatch, Do, For, If, Loop, Make, Measure, Node, Number, PlaceId, Set,
-    Start, Step, Stop, TextDo,
+    Address, Area, Arm, Binary, Body, Case, Code, Dispatch, Do, For, If, Loop, Make, Measure, Node, Number, PlaceId,
+    Set, Start, Step, Stop, TextDo,
 };
 use crate::machine::program::{Base, Index, Location, Program, Statement, StatementKind, Text, TextOperation, Value};
 use crate::semantics::eval::is_unary;
@@ -79,7 +79,7 @@ impl Compiler {
             })),
             StatementKind::Case { selector, arms, otherwise } => Do::Case(Box::new(Case {
                 selector: self.number(selector),
-                arms: arms.iter().map(|arm| (arm.labels.clone(), self.block(&arm.body))).collect(),
+                arms: arms.iter().map(|arm| Arm { labels: arm.labels.clone(), body: self.block(&arm.body) }).collect(),
                 otherwise: self.block(otherwise),
             })),
             StatementKind::For { .. } | StatementKind::Loop { .. } => self.loop_statement(&statement.kind, place),

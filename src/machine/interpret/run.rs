@@ -230,9 +230,9 @@ impl<'c, O: Observer> Walk<'c, O> {
 
     fn case(&mut self, case: &'c Case) -> Result<Flow, Stop> {
         let selector = self.number(&case.selector)?;
-        let chosen =
-            case.arms.iter().find(|(labels, _)| labels.iter().any(|(low, high)| *low <= selector && selector <= *high));
-        self.block(chosen.map_or(&case.otherwise, |(_, body)| body))
+        let within = |(low, high): &(i128, i128)| *low <= selector && selector <= *high;
+        let chosen = case.arms.iter().find(|arm| arm.labels.iter().any(within));
+        self.block(chosen.map_or(&case.otherwise, |arm| &arm.body))
     }
 
     fn counted(&mut self, form: &'c For) -> Result<Flow, Stop> {

@@ -1,3 +1,4 @@
 //! The machine.
 
+mod chart;
 mod standard;
