@@ -44,6 +44,7 @@ END_FUNCTION_BLOCK
 fn structures_and_arrays_are_copied() {
     let text = "
 TYPE Point : STRUCT x : INT; y : INT; END_STRUCT; Point3 : STRUCT EXTENDS Point z : INT; END_STRUCT; END_TYPE
+TYPE Point : STRUCT x : INT; y : INT; END_STRUCT; Point3 EXTENDS Point : STRUCT z : INT; END_STRUCT; END_TYPE
 FUNCTION_BLOCK FB
 VAR a : Point := (x := 1, y := 2); b : Point; l : ARRAY[1..2] OF Point; k : ARRAY[1..2] OF Point; c : Point3; END_VAR
 b := a;
@@ -111,6 +112,9 @@ VAR_IN_OUT v : INT; END_VAR
 VAR_INPUT by : INT := 5; END_VAR
 v := v * 2;
 Twice := by;
+VAR_INPUT add : INT := 5; END_VAR
+v := v * 2;
+Twice := add;
 END_FUNCTION
 FUNCTION_BLOCK FB
 VAR Inc : FB_Inc; list : ARRAY[1..3] OF INT; i : INT := 2; n : INT; END_VAR

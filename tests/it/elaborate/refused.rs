@@ -29,6 +29,13 @@ x := NoSuch;
 END_FUNCTION_BLOCK
 ";
     let expected = [("3:1", "a jump"), ("4:6", "a function without source"), ("6:6", "a name without source")];
+x := Missing(1);
+JMP here;
+x := NoSuch;
+here:
+END_FUNCTION_BLOCK
+";
+    let expected = [("3:6", "a function without source"), ("4:1", "a jump"), ("5:6", "a name without source")];
     assert_eq!(refused(text, "FB"), expected.map(|(a, b)| (a.to_owned(), b.to_owned())));
 }
 
