@@ -80,7 +80,7 @@ pub(super) fn brief(value: &impl std::fmt::Debug) -> String {
 }
 
 /// A program without what every random program has in common.
-fn listing(program: &Program) -> String {
+pub(super) fn listing(program: &Program) -> String {
     let mut lines = vec![format!("slots {}", brief(&program.slots).replace("Slot {", "\n  Slot {"))];
     for statement in &program.startup {
         lines.push(format!("startup {}", brief(statement)));

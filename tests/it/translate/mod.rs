@@ -2,7 +2,9 @@
 
 mod agree;
 mod choices;
+mod compiled;
 mod expressions;
 mod layout;
 mod programs;
+mod render;
 mod statements;
