@@ -3,6 +3,7 @@
 mod agree;
 mod choices;
 mod compiled;
+mod corpus;
 mod expressions;
 mod layout;
 mod programs;
