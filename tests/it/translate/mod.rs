@@ -8,4 +8,6 @@ mod expressions;
 mod layout;
 mod programs;
 mod render;
+mod sources;
 mod statements;
+mod system;
