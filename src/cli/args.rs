@@ -48,6 +48,8 @@ pub(crate) enum Command {
     Diff(DiffArgs),
     /// Explain a finding's code, or which comment documents an entity and why
     Explain(ExplainArgs),
+    /// Write a block as a transition system for other tools: BTOR2, AIGER, SMV
+    Export(super::commands::export::ExportArgs),
     /// Write a commented rungbook.toml
     Init(InitArgs),
     /// Print the JSON Schema of `build --json`

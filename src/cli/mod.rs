@@ -66,6 +66,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Evidence(command) => commands::evidence::run(&command),
         Command::Diff(args) => commands::diff::run(&args),
         Command::Explain(args) => commands::explain::run(&args),
+        Command::Export(args) => commands::export::run(&args),
         Command::Init(args) => commands::init::run(&args),
         Command::Schema => commands::print::schema(),
         Command::Completions { shell } => commands::print::completions(shell),

@@ -5,6 +5,7 @@
 pub mod answer;
 pub mod artefact;
 pub mod evidence;
+pub mod export;
 mod libraries;
 mod overrides;
 mod read;

@@ -1,5 +1,6 @@
 //! The command line: exit codes, what goes to stdout and to stderr, what is written.
 
+mod export;
 mod table;
 
 use std::fs;

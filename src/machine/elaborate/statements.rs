@@ -6,6 +6,7 @@ use super::{Elaborator, Lowered};
 use crate::library::ItemKind;
 use crate::machine::program::{Location, Statement as Lowest, StatementKind, Text, TextOperation};
 use crate::semantics::expr::{Expr, ExprKind, Op};
+use crate::semantics::expr::{Expr, Op};
 use crate::semantics::scalar::Scalar;
 use crate::semantics::typing::convert::{assigned, logical};
 use crate::semantics::typing::{Type, apply, constant};

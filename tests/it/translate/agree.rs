@@ -9,6 +9,7 @@ use rungbook::logic::term::{Node, Term};
 use rungbook::machine::interpret::{Interpreter, Options as RunOptions};
 use rungbook::machine::program::{Program, Role, SlotId};
 use rungbook::machine::translate::{Options, Translated, translate};
+use rungbook::semantics::eval::FaultAt;
 
 use super::choices::Choices;
 use super::programs::program;
@@ -20,7 +21,7 @@ pub(super) fn cases(usual: u32) -> u32 {
 
 /// How often a loop may turn in the random programs.
 const LOOP_LIMIT: u64 = 6;
-const CYCLES: u32 = 20;
+const CYCLES: u64 = 20;
 
 /// The transition system as something that runs.
 pub(super) struct Run<'a> {
@@ -80,7 +81,7 @@ pub(super) fn brief(value: &impl std::fmt::Debug) -> String {
 }
 
 /// A program without what every random program has in common.
-fn listing(program: &Program) -> String {
+pub(super) fn listing(program: &Program) -> String {
     let mut lines = vec![format!("slots {}", brief(&program.slots).replace("Slot {", "\n  Slot {"))];
     for statement in &program.startup {
         lines.push(format!("startup {}", brief(statement)));
@@ -109,48 +110,67 @@ pub(super) fn input(choices: &mut Choices<'_>, program: &Program, slot: usize) -
 static CYCLES_DONE: AtomicU64 = AtomicU64::new(0);
 static FAULTS_SEEN: AtomicU64 = AtomicU64::new(0);
 
-fn compare(program: &Program, choices: &mut Choices<'_>) -> Result<(), TestCaseError> {
-    let options = Options { loop_limit: LOOP_LIMIT, ..Options::default() };
-    let translated = translate(program, &options).map_err(|error| TestCaseError::fail(format!("{error:?}")))?;
-    let mut run = Run::new(&translated);
-    let mut interpreter = Interpreter::with(program, &RunOptions { loop_limit: LOOP_LIMIT });
-    for cycle in 0..CYCLES {
-        for (at, variable) in translated.inputs.iter().enumerate() {
-            let is_input = matches!(program.slots[at].role, Role::Input | Role::Arbitrary);
-            if !is_input {
-                continue;
+/// A program in its two meanings.
+pub(super) struct Agreement<'a> {
+    pub(super) program: &'a Program,
+    pub(super) translated: &'a Translated,
+    pub(super) loop_limit: u64,
+    pub(super) cycles: u64,
+}
+
+impl Agreement<'_> {
+    /// Runs both on random inputs; how many cycles agreed, and whether (0 or 1) the run ended with a fault.
+    pub(super) fn check(&self, choices: &mut Choices<'_>) -> Result<(u64, u64), TestCaseError> {
+        let (program, translated) = (self.program, self.translated);
+        let mut run = Run::new(translated);
+        let mut interpreter = Interpreter::with(program, &RunOptions { loop_limit: self.loop_limit });
+        for cycle in 0..self.cycles {
+            for (at, variable) in translated.inputs.iter().enumerate() {
+                if !matches!(program.slots[at].role, Role::Input | Role::Arbitrary) {
+                    continue;
+                }
+                let value = input(choices, program, at);
+                interpreter.set(SlotId(at as u32), value);
+                if let Some(variable) = variable {
+                    run.set(*variable, value);
+                }
             }
-            let value = input(choices, program, at);
-            interpreter.set(SlotId(at as u32), value);
-            if let Some(variable) = variable {
-                run.set(*variable, value);
+            run.cycle();
+            prop_assert!(translated.system.constraints.iter().all(|constraint| run.get(constraint.term) == 1));
+            let outcome = interpreter.cycle();
+            if !self.faults_agree(&run, outcome, cycle)? {
+                return Ok((cycle + 1, 1));
+            }
+            for (at, term) in translated.end.iter().enumerate() {
+                let (expected, found) = (interpreter.memory()[at], run.get(*term));
+                let name = &program.slots[at].name;
+                prop_assert_eq!(found, expected, "slot {} `{}` in cycle {} of {}", at, name, cycle, listing(program));
             }
         }
-        run.cycle();
-        CYCLES_DONE.fetch_add(1, Ordering::Relaxed);
-        prop_assert!(translated.system.constraints.iter().all(|constraint| run.get(constraint.term) == 1));
-        let outcome = interpreter.cycle();
+        Ok((self.cycles, 0))
+    }
+
+    /// Whether the cycle had no fault.
+    fn faults_agree(&self, run: &Run<'_>, outcome: Result<(), FaultAt>, cycle: u64) -> Result<bool, TestCaseError> {
+        let (program, translated) = (self.program, self.translated);
         let harmed: Vec<_> = (0..translated.faults.len())
             .filter(|index| run.get(translated.system.obligations[*index].term) == 0)
             .map(|index| translated.faults[index])
             .collect();
-        match outcome {
-            Err(at) => {
-                prop_assert_eq!(harmed, vec![(at.fault, at.place)], "cycle {} of {}", cycle, listing(program));
-                prop_assert_eq!(run.get(translated.fault), 1);
-                FAULTS_SEEN.fetch_add(1, Ordering::Relaxed);
-                return Ok(());
-            }
-            Ok(()) => {
-                prop_assert_eq!(harmed, vec![], "cycle {} of {}", cycle, listing(program));
-                prop_assert_eq!(run.get(translated.fault), 0);
-            }
-        }
-        for (at, term) in translated.end.iter().enumerate() {
-            let (expected, found) = (interpreter.memory()[at], run.get(*term));
-            prop_assert_eq!(found, expected, "slot {} in cycle {} of {}", at, cycle, listing(program));
-        }
+        let expected: Vec<_> = outcome.err().iter().map(|at| (at.fault, at.place)).collect();
+        prop_assert_eq!(run.get(translated.fault), expected.len() as u64);
+        prop_assert_eq!(&harmed, &expected, "cycle {} of {}", cycle, listing(program));
+        Ok(expected.is_empty())
     }
+}
+
+fn compare(program: &Program, choices: &mut Choices<'_>) -> Result<(), TestCaseError> {
+    let options = Options { loop_limit: LOOP_LIMIT, ..Options::default() };
+    let translated = translate(program, &options).map_err(|error| TestCaseError::fail(format!("{error:?}")))?;
+    let agreement = Agreement { program, translated: &translated, loop_limit: LOOP_LIMIT, cycles: CYCLES };
+    let (cycles, faults) = agreement.check(choices)?;
+    CYCLES_DONE.fetch_add(cycles, Ordering::Relaxed);
+    FAULTS_SEEN.fetch_add(faults, Ordering::Relaxed);
     Ok(())
 }
 

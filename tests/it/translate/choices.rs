@@ -8,6 +8,8 @@ pub(super) struct Choices<'a> {
     stream: &'a [u32],
     at: usize,
     places: u32,
+    /// Neither `REAL` nor strings.
+    pub(super) integers_only: bool,
 }
 
 /// The scalar types, in order of simplicity.
@@ -45,7 +47,16 @@ const REALS: [f64; 12] = [0.0, 1.0, -1.0, 0.5, 2.5, -0.0, 0.1, 1e10, -3e38, f64:
 
 impl<'a> Choices<'a> {
     pub(super) const fn new(stream: &'a [u32]) -> Self {
-        Self { stream, at: 0, places: 0 }
+        Self { stream, at: 0, places: 0, integers_only: false }
+    }
+
+    pub(super) const fn integers(stream: &'a [u32]) -> Self {
+        Self { integers_only: true, ..Self::new(stream) }
+    }
+
+    /// The types to choose from.
+    pub(super) fn scalars(&self) -> &'static [Scalar] {
+        if self.integers_only { &SCALARS[..SCALARS.len() - 2] } else { &SCALARS }
     }
 
     pub(super) fn next(&mut self) -> u32 {
@@ -69,7 +80,7 @@ impl<'a> Choices<'a> {
     }
 
     pub(super) fn scalar(&mut self) -> Scalar {
-        self.one(&SCALARS)
+        self.one(self.scalars())
     }
 
     /// A place that nothing else has.
@@ -107,4 +118,16 @@ impl<'a> Choices<'a> {
         };
         value & all
     }
+}
+
+/// A stream from a seed (SplitMix64: Steele, Lea and Flood, *Fast splittable pseudorandom number generators*, 2014).
+pub(super) fn stream(seed: u64, length: usize) -> Vec<u32> {
+    let mut state = seed;
+    let mut next = || {
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (z ^ (z >> 31)) as u32
+    };
+    (0..length).map(|_| next()).collect()
 }

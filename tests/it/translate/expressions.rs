@@ -63,9 +63,19 @@ fn kind<V: Vocabulary>(words: &V, choices: &mut Choices<'_>, scalar: Scalar, dep
                 let scalar = Scalar::Int { signed: true, width: 16 };
                 terms.push(Expr { kind: ExprKind::Const(u64::from(number)), scalar, place: None });
             }
+            if matches!(op, Op::Div | Op::Mod) && !matches!(scalar, Scalar::Real(_)) && !choices.once_in(4) {
+                // Mostly no division by zero.
+                let divisor = terms.pop().into_iter().chain([constant(choices, scalar, 1)]).collect();
+                terms.push(Expr { kind: ExprKind::Apply(Op::Or, divisor), scalar, place: choices.place() });
+            }
             ExprKind::Apply(op, terms)
         }
     }
+}
+
+/// A number as a constant.
+pub(super) fn constant<L>(choices: &mut Choices<'_>, scalar: Scalar, number: i128) -> Expr<L> {
+    Expr { kind: ExprKind::Const(scalar.bits(number)), scalar, place: choices.place() }
 }
 
 /// An operator with a result of the type, and the types of its operands.
@@ -75,10 +85,10 @@ fn operator(choices: &mut Choices<'_>, scalar: Scalar) -> (Op, Vec<Scalar>) {
         return (Op::Select, vec![Scalar::Bool, scalar, scalar]);
     }
     if choices.once_in(4) {
-        let same: Vec<Scalar> = SCALARS.into_iter().filter(|s| s.width() == scalar.width()).collect();
+        let same: Vec<Scalar> = choices.scalars().iter().copied().filter(|s| s.width() == scalar.width()).collect();
         return match choices.below(3) {
             0 => (Op::Reinterpret, vec![choices.one(&same)]),
-            1 if !matches!(scalar, Scalar::Real(_)) => {
+            1 if !matches!(scalar, Scalar::Real(_)) && !choices.integers_only => {
                 (Op::Trunc, vec![choices.one(&[Scalar::Real(32), Scalar::Real(64)])])
             }
             _ => (Op::Convert, vec![other]),

@@ -3,11 +3,11 @@
 
 use rungbook::library::ItemId;
 use rungbook::machine::program::{Base, Index, Location, Role, Slot, SlotId, Text, Value};
-use rungbook::semantics::expr::{Expr, ExprKind};
+use rungbook::semantics::expr::{Expr, ExprKind, Op};
 use rungbook::semantics::scalar::Scalar;
 
 use super::choices::{Choices, int};
-use super::expressions::{Vocabulary, expression};
+use super::expressions::{Vocabulary, constant, expression};
 
 /// The scalar that the references of the program refer to.
 pub(super) const POINTEE: Scalar = int(true, 16);
@@ -134,10 +134,15 @@ impl Layout {
             layout.references.push(reference);
             let interface = layout.slot(choices, Scalar::Ref, Role::State);
             layout.interfaces.push(interface);
+            if !choices.once_in(4) {
+                let instance = choices.one(&layout.instances).0.0;
+                layout.slots[reference as usize].initial = u64::from(instance) + 2;
+                layout.slots[interface as usize].initial = u64::from(instance) + 1;
+            }
         }
-        for number in 0..3 {
+        for number in 0..4 {
             let (first, capacity) = (layout.slots.len() as u32, choices.below(6));
-            let (width, input) = (if number == 2 { 16 } else { 8 }, choices.once_in(3));
+            let (width, input) = (if number >= 2 { 16 } else { 8 }, choices.once_in(3));
             for _ in 0..=capacity {
                 let at = layout.slot(choices, Scalar::Bits(width), if input { Role::Input } else { Role::State });
                 layout.slots[at as usize].initial = u64::from(choices.below(3) * 0x41);
@@ -188,12 +193,22 @@ impl Scope<'_> {
 
     fn index(&self, choices: &mut Choices<'_>, low: i64, count: u32, depth: u32) -> Value {
         let scalar = if choices.once_in(3) { int(true, 8) } else { POINTEE };
-        if depth > 0 && choices.once_in(2) {
+        let low = i128::from(low);
+        if depth == 0 || choices.once_in(2) {
+            let outside = u32::from(choices.once_in(40));
+            let number = low + i128::from(choices.below(count + outside));
+            return constant(choices, scalar, number);
+        }
+        if choices.once_in(8) {
             return expression(self, choices, scalar, depth - 1);
         }
-        let outside = u32::from(choices.once_in(20));
-        let number = i128::from(low) + i128::from(choices.below(count + outside));
-        Expr { kind: ExprKind::Const(scalar.bits(number)), scalar, place: choices.place() }
+        // A number MOD the count, and the lowest index.
+        let byte = int(false, 8);
+        let number = vec![expression(self, choices, byte, depth - 1), constant(choices, byte, count.into())];
+        let number = Expr { kind: ExprKind::Apply(Op::Mod, number), scalar: byte, place: choices.place() };
+        let number = Expr { kind: ExprKind::Apply(Op::Convert, vec![number]), scalar, place: choices.place() };
+        let sum = vec![number, constant(choices, scalar, low)];
+        Expr { kind: ExprKind::Apply(Op::Add, sum), scalar, place: choices.place() }
     }
 
     /// A reference, of the first or the second kind, as a value.
@@ -223,9 +238,10 @@ impl Scope<'_> {
         Expr { kind: ExprKind::Const(0), scalar: Scalar::Ref, place: choices.place() }
     }
 
-    /// A string.
-    pub(super) fn text(&self, choices: &mut Choices<'_>) -> Text {
-        let (first, capacity) = choices.one(&self.layout.texts);
+    /// A string, of narrow or wide characters.
+    pub(super) fn text(&self, choices: &mut Choices<'_>, wide: bool) -> Text {
+        let of_width = if wide { &self.layout.texts[2..] } else { &self.layout.texts[..2] };
+        let (first, capacity) = choices.one(of_width);
         Text { location: slot(first), capacity }
     }
 }

@@ -2,7 +2,12 @@
 
 mod agree;
 mod choices;
+mod compiled;
+mod corpus;
 mod expressions;
 mod layout;
 mod programs;
+mod render;
+mod sources;
 mod statements;
+mod system;

@@ -1,13 +1,11 @@
 //! Random statements over a memory.
 
-use rungbook::machine::program::{
-    Arm, Base, Location, RoutineId, Statement, StatementKind, TextOperation, TextOrder, Value,
-};
+use rungbook::machine::program::{Arm, Base, Location, RoutineId, Statement, StatementKind, TextOperation, TextOrder};
 use rungbook::semantics::expr::{Expr, ExprKind, Fault};
 use rungbook::semantics::scalar::Scalar;
 
 use super::choices::{Choices, int};
-use super::expressions::expression;
+use super::expressions::{constant, expression};
 use super::layout::{CLASSES, INSTANCE, POINTEE, ROUTINES, Scope, slot};
 
 /// Where statements stand.
@@ -37,7 +35,7 @@ impl Scope<'_> {
                 choices.one(&[StatementKind::Exit, StatementKind::Continue, StatementKind::Return].each_ref()).clone()
             }
             14 | 15 if around.callable < ROUTINES => self.call(choices, around),
-            16 | 17 => StatementKind::Text(Box::new(self.text_operation(choices))),
+            16 | 17 if !choices.integers_only => StatementKind::Text(Box::new(self.text_operation(choices))),
             18 => self.copy(choices),
             19 => self.reference_statement(choices),
             _ => self.assign(choices),
@@ -56,7 +54,13 @@ impl Scope<'_> {
         let usable: Vec<_> =
             self.layout.variables.iter().filter(|v| v.writable && (self.has_this || !v.member)).collect();
         let variable = choices.one(&usable);
-        let value = expression(self, choices, variable.scalar, 3);
+        let value = match variable.range {
+            Some((low, high)) if !choices.once_in(4) => {
+                let number = low + i128::from(choices.next()) % (high - low + 1);
+                constant(choices, variable.scalar, number)
+            }
+            _ => expression(self, choices, variable.scalar, 3),
+        };
         let target = self.locate(choices, variable, 2);
         StatementKind::Assign { target, value, range: variable.range }
     }
@@ -67,7 +71,7 @@ impl Scope<'_> {
         let mut then = self.block(choices, inner);
         if choices.once_in(8) {
             let kind =
-                if choices.once_in(8) { StatementKind::Fail(Fault::NullReference) } else { StatementKind::Return };
+                if choices.once_in(20) { StatementKind::Fail(Fault::NullReference) } else { StatementKind::Return };
             then.push(Statement { kind, place: choices.place() });
         }
         let otherwise = if choices.once_in(2) { self.block(choices, inner) } else { Vec::new() };
@@ -91,10 +95,6 @@ impl Scope<'_> {
         StatementKind::Case { selector, arms, otherwise }
     }
 
-    fn constant(&self, choices: &mut Choices<'_>, scalar: Scalar, number: i128) -> Value {
-        Expr { kind: ExprKind::Const(scalar.bits(number)), scalar, place: choices.place() }
-    }
-
     fn counted(&self, choices: &mut Choices<'_>, around: Around) -> StatementKind {
         let whole: Vec<_> = self
             .layout
@@ -108,15 +108,15 @@ impl Scope<'_> {
         let (from, to, by) = if choices.once_in(3) {
             let from = expression(self, choices, scalar, 1);
             let (to, by) = (expression(self, choices, scalar, 1), expression(self, choices, scalar, 1));
-            (from, to, if choices.once_in(2) { by } else { self.constant(choices, scalar, 1) })
+            (from, to, if choices.once_in(2) { by } else { constant(choices, scalar, 1) })
         } else {
             let first = if choices.once_in(4) { scalar.number(choices.bits(scalar)) } else { 0 };
             let step = i128::from(choices.one(&[1, 1, 2, -1, -3]));
             let last = first + step * i128::from(choices.below(4));
             let last = scalar.number(scalar.bits(last));
             let steps = int(true, 16);
-            let from = self.constant(choices, scalar, first);
-            (from, self.constant(choices, scalar, last), self.constant(choices, steps, step))
+            let from = constant(choices, scalar, first);
+            (from, constant(choices, scalar, last), constant(choices, steps, step))
         };
         let control = self.locate(choices, control, 1);
         let body = self.block(choices, inner);
@@ -132,7 +132,7 @@ impl Scope<'_> {
             Statement { kind, place: choices.place() }
         };
         let (mut body, mut after) = (self.block(choices, inner), Vec::new());
-        if choices.once_in(2) {
+        if !choices.once_in(3) {
             body.insert(0, leave(choices, self));
         }
         if choices.once_in(2) {
@@ -208,14 +208,15 @@ impl Scope<'_> {
     }
 
     fn text_operation(&self, choices: &mut Choices<'_>) -> TextOperation {
-        let (target, first, second) = (self.text(choices), self.text(choices), self.text(choices));
+        let wide = choices.once_in(3);
+        let (target, first, second) = (self.text(choices, wide), self.text(choices, wide), self.text(choices, wide));
         let number = |choices: &mut Choices<'_>| {
             let scalar = choices.one(&[POINTEE, int(false, 8)]);
             match choices.once_in(2) {
                 true => expression(self, choices, scalar, 2),
                 false => {
                     let number = i128::from(choices.below(8)) - 1;
-                    self.constant(choices, scalar, number)
+                    constant(choices, scalar, number)
                 }
             }
         };
