@@ -158,7 +158,7 @@ pub fn book(project: &Project, settings: &Settings, stamp: &Stamp) -> Book {
         tool: stamp.tool.clone(),
         language: settings.language.clone(),
     };
-    book::build(&book::Input {
+    let mut book = book::build(&book::Input {
         front,
         files: &project.files,
         source_files: project.source_files,
@@ -171,7 +171,9 @@ pub fn book(project: &Project, settings: &Settings, stamp: &Stamp) -> Book {
         findings: &project.findings,
         skipped: &project.skipped,
         narratives: &project.narratives,
-    })
+    });
+    evidence::show(&project.beside, &mut book);
+    book
 }
 
 /// The site.
