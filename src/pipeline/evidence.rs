@@ -205,7 +205,8 @@ pub(super) fn show(beside: &Beside, book: &mut Book) {
             head: ["suite", "case", "outcome", "tool", "message"].map(cell).into(),
             rows: own.iter().map(row).collect(),
         };
-        let note = "As these tools reported them; rungbook has checked none of this, and none of it counts as verified.";
+        let note =
+            "As these tools reported them; rungbook has checked none of this, and none of it counts as verified.";
         let content = vec![Block::Paragraph { content: cell(note) }, table];
         entity.core.facts.push(Fact { title: "Results of other tools".to_owned(), content });
     }
