@@ -84,7 +84,11 @@ fn interface(comparison: &Comparison, level: &str, out: &mut String) {
 fn code_cell(text: &str) -> String {
     let part =
         |(n, part): (usize, &str)| if n % 2 == 1 { format!("`{}`", part.replace('|', "\\|")) } else { cell(part) };
-    if text.matches('`').count() % 2 == 0 { text.split('`').enumerate().map(part).collect() } else { cell(text) }
+    if text.matches('`').count().is_multiple_of(2) {
+        text.split('`').enumerate().map(part).collect()
+    } else {
+        cell(text)
+    }
 }
 
 /// What was is struck out, what is stands in bold.

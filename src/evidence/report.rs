@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::diff::Comparison;
 use super::policy::allow::Allowed;
-use super::record::{Origin, Record, Verdict};
+use super::record::{Coverage, Origin, Ratio, Record, Verdict};
 use super::results::Outside;
 use super::trace::{Line, State};
 
@@ -162,34 +162,30 @@ fn tables(input: &Input<'_>, out: &mut String) {
         out.push_str("There is no test table.\n\n");
         return;
     }
-    head(
-        out,
-        &["block", "table", "verdict", "rows", "statements", "branches", "outputs left free", "engine", "record"],
-    );
+    head(out, &["block", "table", "verdict", "covered", "engine", "record"]);
     for record in input.records {
-        let ratio = |ratio: super::record::Ratio| format!("{}/{}", ratio.hit, ratio.total);
         let block = record.claim.block.as_ref().map_or_else(String::new, |block| cell(&block.name));
-        let coverage = record.coverage.as_ref();
-        let part = |get: fn(&super::record::Coverage) -> super::record::Ratio| {
-            coverage.map_or_else(String::new, |c| ratio(get(c)))
-        };
-        let free = coverage.map_or_else(String::new, |coverage| cell(&coverage.free_outputs.join(", ")));
-        row(
-            out,
-            &[
-                &block,
-                &cell(&record.claim.table.name),
-                &format!("**{}**", record.verdict.word()),
-                &part(|c| c.rows),
-                &part(|c| c.statements),
-                &part(|c| c.branches),
-                &free,
-                &cell(&record.engine),
-                &format!("`{}`", record.key.short()),
-            ],
-        );
+        let covered = record.coverage.as_ref().map_or_else(String::new, covered);
+        let verdict = format!("**{}**", record.verdict.word());
+        let key = format!("`{}`", record.key.short());
+        row(out, &[&block, &cell(&record.claim.table.name), &verdict, &covered, &cell(&record.engine), &key]);
     }
     out.push('\n');
+}
+
+/// What a proof covered, in a cell.
+fn covered(coverage: &Coverage) -> String {
+    let ratio = |name: &str, ratio: Ratio| format!("{name} {}/{}", ratio.hit, ratio.total);
+    let mut parts = vec![
+        ratio("rows", coverage.rows),
+        ratio("statements", coverage.statements),
+        ratio("branches", coverage.branches),
+    ];
+    parts.extend(coverage.mutants.map(|mutants| ratio("mutants caught", mutants)));
+    if !coverage.free_outputs.is_empty() {
+        parts.push(format!("left free: {}", cell(&coverage.free_outputs.join(", "))));
+    }
+    parts.join("; ")
 }
 
 fn holes(input: &Input<'_>, out: &mut String) {

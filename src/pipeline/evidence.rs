@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use super::{Project, Stamp, records};
 use crate::book::Narrative;
 use crate::book::view::Book;
+use crate::book::view::entity::Fact;
+use crate::book::view::prose::{Block, Inline};
 use crate::config::Settings;
 use crate::diagnostic::Finding;
 use crate::evidence::codes::{UNKNOWN_REQUIREMENT, UNMET_REQUIREMENT, UNREADABLE_RESULTS};
@@ -183,6 +185,31 @@ pub fn pages(
     let mut pages = vec![page(report::PATH, text)];
     pages.extend(changes.map(|changes| page(changelog::PATH, changelog::markdown(changes))));
     pages
+}
+
+/// Shows results of other tools at the blocks that they belong to, in these tools' own words.
+pub(super) fn show(beside: &Beside, book: &mut Book) {
+    for entity in &mut book.entities {
+        let name = &entity.core.qualified_name;
+        let own: Vec<&Outside> =
+            beside.outside.iter().filter(|(_, block)| block.as_ref() == Some(name)).map(|(result, _)| result).collect();
+        if own.is_empty() {
+            continue;
+        }
+        let cell = |text: &str| vec![Inline::text(text)];
+        let row = |result: &&Outside| {
+            [&result.suite, &result.case, &result.outcome, &result.tool, &result.message].map(|text| cell(text)).into()
+        };
+        let table = Block::Table {
+            align: vec!["none"; 5],
+            head: ["suite", "case", "outcome", "tool", "message"].map(cell).into(),
+            rows: own.iter().map(row).collect(),
+        };
+        let note =
+            "As these tools reported them; rungbook has checked none of this, and none of it counts as verified.";
+        let content = vec![Block::Paragraph { content: cell(note) }, table];
+        entity.core.facts.push(Fact { title: "Results of other tools".to_owned(), content });
+    }
 }
 
 /// The book of the report alone, for a PDF of its own: `book` without all but its last `pages` chapters.

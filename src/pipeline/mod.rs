@@ -161,7 +161,7 @@ pub fn book(project: &Project, settings: &Settings, stamp: &Stamp) -> Book {
         tool: stamp.tool.clone(),
         language: settings.language.clone(),
     };
-    book::build(&book::Input {
+    let mut book = book::build(&book::Input {
         front,
         files: &project.files,
         source_files: project.source_files,
@@ -175,7 +175,9 @@ pub fn book(project: &Project, settings: &Settings, stamp: &Stamp) -> Book {
         findings: &project.findings,
         skipped: &project.skipped,
         narratives: &project.narratives,
-    })
+    });
+    evidence::show(&project.beside, &mut book);
+    book
 }
 
 /// The site.

@@ -2,7 +2,7 @@
 
 use super::{Project, Stamp};
 use crate::config::Settings;
-use crate::docs::Entry;
+use crate::docs::{Entry, TableText};
 use crate::evidence::digest::Digest;
 use crate::evidence::record::{Answer, Record};
 use crate::evidence::snapshot::{self, Entity, Row, Snapshot, Table, Variable};
@@ -10,6 +10,7 @@ use crate::library::{Access, Item, ItemId, TypeUse};
 use crate::table::AttachedTable;
 use crate::table::cell::time_text;
 use crate::table::layout::{self, DurationText};
+use crate::text::Span;
 
 /// The snapshot of a project.
 #[must_use]
@@ -66,10 +67,20 @@ fn access(project: &Project, id: ItemId) -> Access {
     item.parent.map_or(item.access, |parent| item.access.max(access(project, parent)))
 }
 
-/// The digest of the comments, without layout; none for inherited documentation.
+/// The digest of the comments, without layout and without the tables in them; none for inherited documentation.
 fn doc(project: &Project, entry: &Entry) -> Option<Digest> {
     let doc = entry.doc.as_ref().filter(|_| entry.inherited_from.is_none())?;
-    let words = doc.places.iter().flat_map(|place| project.files.text(*place).split_whitespace());
+    let mut words = Vec::new();
+    for place in &doc.places {
+        let text = &project.files.get(place.file).text;
+        let mut from = place.span.start;
+        let inside = |table: &&TableText| table.place.file == place.file && place.span.contains(table.place.span);
+        for table in doc.tables.iter().filter(inside) {
+            words.extend(Span::new(from, table.place.span.start).of(text).split_whitespace());
+            from = table.place.span.end;
+        }
+        words.extend(Span::new(from, place.span.end).of(text).split_whitespace());
+    }
     Some(Digest::of_parts(words))
 }
 

@@ -58,6 +58,15 @@ fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
+/// Names in backticks as code; text with an odd one is left as it is.
+fn code(text: &str) -> String {
+    if !text.matches('`').count().is_multiple_of(2) {
+        return text.to_owned();
+    }
+    let part = |(n, part): (usize, &str)| if n % 2 == 1 { format!("<code>{part}</code>") } else { part.to_owned() };
+    text.split('`').enumerate().map(part).collect()
+}
+
 /// One page that needs nothing beside it.
 pub(crate) fn html(comparison: &Comparison) -> String {
     let release = |of: &crate::evidence::diff::Release| escape([&*of.title, &of.version, &of.commit].join(" ").trim());
@@ -103,7 +112,7 @@ fn interface(comparison: &Comparison, out: &mut String) {
     out.push_str("<h2>Interfaces</h2><table><thead><tr><th>entity</th><th>change</th><th></th></tr></thead><tbody>\n");
     for change in &comparison.interface {
         let kind = if change.breaking { "<span class=\"breaking\">incompatible</span>: " } else { "compatible: " };
-        let (entity, what, why) = (escape(&change.entity), escape(&change.what), escape(change.why));
+        let (entity, what, why) = (escape(&change.entity), code(&escape(&change.what)), escape(change.why));
         out.push_str(&format!("<tr><td>{entity}</td><td>{what}</td><td>{kind}{why}</td></tr>\n"));
     }
     out.push_str("</tbody></table>\n");

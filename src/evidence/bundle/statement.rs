@@ -102,9 +102,12 @@ pub struct Signature {
     pub sig: String,
 }
 
+/// Signs a message, and gives the key's fingerprint with the signature.
+pub type Sign<'a> = dyn Fn(&[u8]) -> (String, Vec<u8>) + 'a;
+
 impl Envelope {
-    /// An envelope with `payload`; `sign` signs, and gives the key's fingerprint with the signature.
-    pub fn new(payload: &[u8], sign: Option<&dyn Fn(&[u8]) -> (String, Vec<u8>)>) -> Self {
+    /// An envelope with `payload`, signed by `sign`.
+    pub fn new(payload: &[u8], sign: Option<&Sign<'_>>) -> Self {
         let signature = sign.map(|sign| {
             let (keyid, sig) = sign(&encoding(PAYLOAD_TYPE, payload));
             Signature { keyid, sig: STANDARD.encode(sig) }

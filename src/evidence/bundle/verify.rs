@@ -2,7 +2,7 @@
 //!
 //! Nothing but the bytes is needed, and no network. What a certificate proves is for `recheck/` to say; it comes in as a function.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use super::manifest::{self, File, Manifest};
 use super::sign::{self, Public};
@@ -66,7 +66,7 @@ pub type Recheck<'a> = dyn Fn(&Record, &Artefact, &BTreeMap<String, Vec<u8>>) ->
 /// Checks `bytes`. With `keys`, the signature has to be by one of them.
 pub fn verify(bytes: &[u8], keys: &[Public], recheck: Option<&Recheck<'_>>) -> Report {
     let mut report = Report::default();
-    let (files, faults) = archive::read(bytes);
+    let (files, faults) = archive::read(bytes, &unlisted);
     for fault in faults {
         report.add(&fault.part, fault.message);
     }
@@ -86,6 +86,18 @@ pub fn verify(bytes: &[u8], keys: &[Public], recheck: Option<&Recheck<'_>>) -> R
     report.problems.dedup();
     report
 }
+
+/// How many names the manifest of `files` has and they have not, or the other way round.
+fn unlisted(files: &Files) -> usize {
+    let manifest = files.get(manifest::PATH).and_then(|bytes| Manifest::parse(bytes).ok());
+    let Some(manifest) = manifest else { return usize::MAX };
+    let missing = manifest.files.keys().filter(|path| !files.contains_key(*path)).count();
+    let more = files.keys().filter(|path| !OWN.contains(&path.as_str()) && !manifest.files.contains_key(*path)).count();
+    missing + more
+}
+
+/// The files that the manifest cannot list, since they follow from it.
+const OWN: [&str; 4] = [manifest::PATH, statement::PATH, statement::ENVELOPE, sign::SSH_SIGNATURE];
 
 type Files = BTreeMap<String, Vec<u8>>;
 
@@ -112,8 +124,7 @@ fn digests(manifest: &Manifest, files: &Files, report: &mut Report) {
             Some(_) => {}
         }
     }
-    let own: BTreeSet<&str> = [manifest::PATH, statement::PATH, statement::ENVELOPE, sign::SSH_SIGNATURE].into();
-    for path in files.keys().filter(|path| !own.contains(path.as_str()) && !manifest.files.contains_key(*path)) {
+    for path in files.keys().filter(|path| !OWN.contains(&path.as_str()) && !manifest.files.contains_key(*path)) {
         report.add(path, "it is in the bundle and not in the manifest");
     }
 }

@@ -87,7 +87,7 @@ pub fn bundle(contents: Contents, signer: Option<&Signer>) -> Result<Vec<u8>, St
     };
     let statement = statement::statement(&manifest, &records);
     let sign = signer.map(|signer| |message: &[u8]| (signer.public().fingerprint(), signer.sign(message)));
-    let envelope = Envelope::new(&statement, sign.as_ref().map(|sign| sign as &dyn Fn(&[u8]) -> (String, Vec<u8>)));
+    let envelope = Envelope::new(&statement, sign.as_ref().map(|sign| sign as &statement::Sign<'_>));
     if let Some(signer) = signer {
         files.insert(sign::SSH_SIGNATURE.to_owned(), signer.sign_ssh(&statement)?.into_bytes());
     }

@@ -101,6 +101,17 @@ fn documentation_changes_are_told_apart() {
     assert_eq!(value["advice"], "patch");
 }
 
+#[test]
+fn a_table_in_a_comment_is_no_documentation() {
+    let comment = |duration: &str| {
+        let table = format!("@gtt Works (cycle 10ms)\n| # | in X | dur |\n|---|---|---|\n| 1 | T | {duration} |\n");
+        format!("(* A block.\n\n{table}*)\nFUNCTION_BLOCK FB_A\nVAR_INPUT X : BOOL; END_VAR\nEND_FUNCTION_BLOCK\n")
+    };
+    let value = diff(&comment("1"), &comment("2"));
+    assert_eq!(value["documentation"], serde_json::json!([]), "{value:#}");
+    assert_eq!(value["tables"][0]["rows"][0]["duration"]["new"], "2");
+}
+
 fn table(rows: &[(&str, &[&str], &str)], verdict: &str) -> Snapshot {
     let rows = rows.iter().map(|(id, cells, duration)| Row {
         id: (*id).to_owned(),

@@ -45,5 +45,13 @@ fn the_page_shows_matrix_results_and_blanks() {
     {
         assert!(page.contains(part), "{part} is missing");
     }
+    let model = stdout(rungbook().args(["build", "-q", "--json", "-o"]).arg(out.path()).arg(dir.path()));
+    assert!(model.is_empty());
+    let model = std::fs::read(out.path().join("model.json")).expect("written");
+    let model: serde_json::Value = serde_json::from_slice(&model).expect("JSON");
+    let lamp = model["entities"].as_array().expect("a list").iter().find(|entity| entity["name"] == "FB_Lamp");
+    let url = lamp.and_then(|entity| entity["page"].as_str()).expect("a page").split('#').next().expect("an address");
+    let block = std::fs::read_to_string(out.path().join("html").join(url)).expect("written");
+    assert!(block.contains("Results of other tools") && block.contains("Goes on"), "shown at its block");
     assert!(page.contains("1 holes"), "REQ-3; REQ-2 is justified, REQ-9 has a block");
 }
