@@ -6,10 +6,9 @@ use super::{Elaborator, Lowered};
 use crate::library::ItemKind;
 use crate::machine::program::{Location, Statement as Lowest, StatementKind, Text, TextOperation};
 use crate::semantics::expr::{Expr, ExprKind, Op};
-use crate::semantics::expr::{Expr, Op};
 use crate::semantics::scalar::Scalar;
 use crate::semantics::typing::convert::{assigned, logical};
-use crate::semantics::typing::{Type, apply, constant};
+use crate::semantics::typing::{Operand, Type, apply, constant};
 use crate::syntax::Node;
 use crate::syntax::ast::{
     AssignExpression, AssignOperator, AssignStatement, AstNode, BinaryOperator, Expression, Statement, StatementList,

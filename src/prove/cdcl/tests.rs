@@ -1,3 +1,5 @@
+//! The solver against the truth tables of random formulas.
+
 use super::Solver;
 use crate::logic::aig::Lit;
 use crate::prove::simulate::Random;

@@ -369,7 +369,7 @@ fn finding(code: &str, severity: &'static str, message: &str, file: &str, line: 
 }
 
 fn verdict(key: &'static str, note: &str) -> VerdictView {
-    VerdictView { key, label: key.to_owned(), note: note.to_owned() }
+    VerdictView { key, label: key.to_owned(), note: note.to_owned(), facts: Vec::new() }
 }
 
 fn column(group: &'static str, name: &str, type_: &str) -> ColumnView {
@@ -410,6 +410,7 @@ fn table(name: &str, line: u32, verdict: VerdictView, columns: Vec<ColumnView>, 
         rows,
         brackets: Vec::new(),
         errors: Vec::new(),
+        run: None,
     }
 }
 

@@ -34,8 +34,7 @@ pub(crate) fn model(seed: u64, latches: usize) -> Model {
         };
         known.push(gate);
     }
-    let mut late =
-        |dice: &mut Dice| known[known.len() - 1 - dice.below(known.len() * 2 / 3)].invert_if(dice.below(2) == 0);
+    let late = |dice: &mut Dice| known[known.len() - 1 - dice.below(known.len() * 2 / 3)].invert_if(dice.below(2) == 0);
     for lit in latches {
         let next = late(&mut dice);
         let next = if dice.below(12) == 0 { lit } else { next };
