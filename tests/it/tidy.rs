@@ -27,7 +27,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("evidence", &["table", "library", "syntax"]),
     ("audit", &["library", "docs", "table", "source", "syntax", "evidence"]),
     ("figure", &["library", "table", "machine", "prove"]),
-    ("book", &["library", "docs", "table", "audit", "figure", "evidence"]),
+    ("book", &["library", "docs", "table", "audit", "figure", "evidence", "machine"]),
     ("render", &["book", "figure"]),
     ("config", &["source", "docs", "audit", "table", "render", "evidence", "prove", "machine"]),
     (
