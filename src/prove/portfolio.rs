@@ -2,7 +2,7 @@
 //!
 //! With one job the order is fixed and shares are counted in work, not in time, so that the same model gives the same
 //! answer with the same evidence: a short search for a violation, mining, then IC3 and induction (which searches for
-//! violations on the side) in turns that grow. With two jobs induction runs beside the rest and the first answer counts:
+//! violations on the side) with what was mined, and IC3 without, in turns that grow. With two jobs induction runs beside the rest and the first answer counts:
 //! its kind is the same, its evidence may differ.
 
 use super::bmc::BmcSearch;
@@ -83,6 +83,7 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
     }
     let safe = look.depth();
     drop(look);
+    let mut plain = Ic3Search::new(problem.clone());
     let problem = match enrich(problem, hints, budget, listener) {
         Ok(problem) => problem,
         Err(outcome) => return outcome,
@@ -91,14 +92,15 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
     let mut induction = InductionSearch::new(problem);
     let mut turn = TURN;
     loop {
-        let searches: [(&mut dyn Search, &'static str); 2] = [(&mut ic3, "ic3"), (&mut induction, "induction")];
+        let searches: [(&mut dyn Search, &'static str); 3] =
+            [(&mut ic3, "ic3"), (&mut induction, "induction"), (&mut plain, "ic3")];
         for (search, engine) in searches {
             match search.advance(turn, budget, listener) {
                 Some(answer) if answer.is_final() => return Outcome { answer, engine },
                 _ => {}
             }
         }
-        let deepest = safe.max(ic3.depth()).max(induction.depth());
+        let deepest = safe.max(ic3.depth()).max(induction.depth()).max(plain.depth());
         if let Some(reason) = budget.exhausted() {
             return Outcome { answer: bounded(deepest, reason), engine: "portfolio" };
         }

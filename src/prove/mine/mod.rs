@@ -17,7 +17,7 @@ use super::engine::{Answer, Budget, Engine, Hints, Progress, Reason};
 use super::problem::Problem;
 use crate::logic::aig::{Gate, Lit, Model};
 use houdini::Houdini;
-use sample::Samples;
+use sample::{Samples, Wanted};
 
 /// The engine.
 #[derive(Clone, Debug, Default)]
@@ -50,13 +50,17 @@ pub(crate) enum Mined {
 }
 
 /// Most nodes that are compared pair by pair for implications.
-const PAIRED: usize = 160;
+const PAIRED: usize = 200;
+/// Most guards.
+const GUARDS: usize = 50;
 
 /// Finds facts and adds them to the problem.
 pub(crate) fn mine(mut problem: Problem, hints: &Hints, budget: &Budget) -> Result<Mined, Reason> {
-    let sampled = Samples::take(&problem.model, &[], &hints.words);
-    let predicates = predicates::between(&mut problem, &hints.words, &sampled);
-    let guesses = guess(&problem, &predicates);
+    let words: Vec<Vec<Lit>> = hints.words.iter().filter(|w| w.len() > 1).cloned().collect();
+    let guards = guards(&problem.model, &words);
+    let sampled = Samples::take(&problem.model, Wanted { nodes: &[], words: &words, guards: &guards });
+    let predicates = predicates::between(&mut problem, &words, &sampled);
+    let guesses = guess(&problem, &guards, &predicates);
     let mut houdini = Houdini::new(&mut problem, guesses);
     houdini.settle(budget)?;
     if let Some(clauses) = houdini.imply_property(budget)? {
@@ -94,17 +98,17 @@ fn state_gates(model: &Model) -> Vec<Lit> {
 }
 
 /// Clauses that no random run contradicts.
-fn guess(problem: &Problem, predicates: &[Lit]) -> Vec<Vec<Lit>> {
+fn guess(problem: &Problem, guards: &[Lit], predicates: &[Lit]) -> Vec<Vec<Lit>> {
     let model = &problem.model;
     let latches: Vec<Lit> = model.latches.iter().map(|l| l.lit).collect();
     let mut nodes = latches.clone();
     nodes.extend(state_gates(model));
     nodes.sort_unstable();
     nodes.dedup();
-    let samples = Samples::take(model, &nodes, &[]);
+    let samples = Samples::take(model, Wanted { nodes: &nodes, ..Wanted::default() });
     let (mut guesses, leaders) = classes(&samples, &nodes);
     let mut paired: Vec<Lit> = Vec::new();
-    for &lit in latches.iter().filter(|l| !in_word(problem, **l, predicates)).chain(predicates).chain(&latches) {
+    for &lit in guards.iter().chain(predicates).chain(&latches) {
         if leaders.contains(&lit) && paired.len() < PAIRED && !paired.contains(&lit) {
             paired.push(lit);
         }
@@ -121,10 +125,11 @@ fn guess(problem: &Problem, predicates: &[Lit]) -> Vec<Vec<Lit>> {
     guesses
 }
 
-/// Whether predicates speak of words at all; then bits of words are paired last.
-fn in_word(problem: &Problem, lit: Lit, predicates: &[Lit]) -> bool {
-    let cone = super::problem::cone(&problem.model, predicates);
-    cone.binary_search(&lit.node()).is_ok()
+/// Latches outside of words: states of an automaton, flags.
+fn guards(model: &Model, words: &[Vec<Lit>]) -> Vec<Lit> {
+    let inside: std::collections::BTreeSet<u32> = words.iter().flatten().map(|l| l.node()).collect();
+    let latches = model.latches.iter().map(|l| l.lit);
+    latches.filter(|l| !inside.contains(&l.node())).take(GUARDS).collect()
 }
 
 /// Guesses that nodes are constant, or equal to an earlier one up to inversion; and the nodes that are neither.

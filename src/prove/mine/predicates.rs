@@ -1,11 +1,15 @@
 //! Predicates over pairs of latched words that random runs make worth a guess.
 
+use std::collections::BTreeSet;
+
 use super::super::problem::Problem;
 use super::sample::Samples;
 use crate::logic::aig::{Aig, Lit};
 
 /// Most pairs of words that are related.
-const PAIRS: usize = 400;
+const PAIRS: usize = 300;
+/// Most bounds.
+const BOUNDS: usize = 80;
 
 /// `b + not a + carry`: whether that carries, which is `a < b` or, with a carry in, `a <= b`, unsigned.
 fn carries(aig: &mut Aig, a: &[Lit], b: &[Lit], carry: Lit) -> Lit {
@@ -59,48 +63,97 @@ fn mask(width: usize) -> u64 {
     if width >= 64 { u64::MAX } else { (1 << width) - 1 }
 }
 
-/// The relation `y = factor * x + offset` that most of the samples obey, where one does.
-fn relation(xs: &[u64], ys: &[u64], width: usize) -> Option<(u64, u64)> {
+/// The relation `y = factor * x + offset` that all of the samples obey, where `x` takes three values or more.
+fn relation(samples: impl Iterator<Item = (u64, u64)> + Clone, width: usize) -> Option<(u64, u64)> {
     let mask = mask(width);
-    let mut votes: std::collections::BTreeMap<(u64, u64), usize> = std::collections::BTreeMap::new();
-    for at in 1..xs.len() {
-        let (dx, dy) = (xs[at].wrapping_sub(xs[at - 1]) as i64, ys[at].wrapping_sub(ys[at - 1]) as i64);
-        if dx != 0 && dy.checked_rem(dx) == Some(0) {
-            let factor = (dy / dx) as u64 & mask;
-            let offset = ys[at].wrapping_sub(factor.wrapping_mul(xs[at])) & mask;
-            if factor != 0 {
-                *votes.entry((factor, offset)).or_default() += 1;
-            }
+    let (x, y) = samples.clone().next()?;
+    let (dx, dy) = samples
+        .clone()
+        .map(|(a, b)| (a.wrapping_sub(x) as i64, b.wrapping_sub(y) as i64))
+        .find(|&(dx, dy)| dx != 0 || dy != 0)?;
+    if dx == 0 || dy.checked_rem(dx) != Some(0) || dy == 0 {
+        return None;
+    }
+    let factor = (dy / dx) as u64 & mask;
+    let offset = y.wrapping_sub(factor.wrapping_mul(x)) & mask;
+    let mut values = [x, x.wrapping_add(dx as u64), x];
+    for (a, b) in samples {
+        if factor.wrapping_mul(a).wrapping_add(offset) & mask != b {
+            return None;
+        }
+        if !values[..2].contains(&a) {
+            values[2] = a;
         }
     }
-    let (&best, &count) = votes.iter().max_by_key(|(key, n)| (**n, std::cmp::Reverse(**key)))?;
-    (count * 5 >= xs.len()).then_some(best)
+    (values[2] != x).then_some((factor, offset))
 }
 
 /// Adds the predicates to the problem's graph.
 pub(super) fn between(problem: &mut Problem, words: &[Vec<Lit>], samples: &Samples) -> Vec<Lit> {
     let mut predicates = Vec::new();
-    let pairs = (0..words.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-    for (i, j) in pairs.take(PAIRS) {
+    let aig = &mut problem.model.aig;
+    let pairs: Vec<(usize, usize)> = (0..words.len()).flat_map(|i| (0..i).map(move |j| (i, j))).take(PAIRS).collect();
+    for &(i, j) in &pairs {
         let (x, y) = (&words[j], &words[i]);
-        let aig = &mut problem.model.aig;
-        if x.len() == y.len() && x.len() > 1 {
+        if x.len() == y.len() {
             predicates.extend(orders(aig, x, y));
         }
-        for (x, y, xs, ys) in [(x, y, j, i), (y, x, i, j)] {
-            let found = relation(&samples.words[xs], &samples.words[ys], y.len());
-            if let Some(found) = found
-                && found != (1, 0)
-            {
-                let line = linear(aig, x, found, y.len());
-                predicates.push(equal(aig, &line, y));
-            }
+    }
+    for (x, y, line) in lines(words, samples, &pairs) {
+        let line = linear(aig, &words[x], line, words[y].len());
+        predicates.push(equal(aig, &line, &words[y]));
+    }
+    for (word, least, most) in bounds(words, samples) {
+        let bits = &words[word];
+        for (low, high) in [(constant(bits.len(), least), bits.clone()), (bits.clone(), constant(bits.len(), most))] {
+            predicates.push(carries(aig, &low, &high, Lit::TRUE));
         }
     }
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = BTreeSet::new();
     let mut plain: Vec<Lit> = predicates.iter().map(|p| Lit::of(p.node())).collect();
     plain.retain(|p| p.node() != 0 && seen.insert(*p));
     plain
+}
+
+/// For no guard and for each, the samples in which it is true.
+fn kept(samples: &Samples) -> Vec<Vec<usize>> {
+    let count = samples.words.first().map_or(0, Vec::len);
+    let all = (0..count).collect();
+    let guarded = samples.guards.iter().map(|g| (0..count).filter(|&at| g[at]).collect());
+    std::iter::once(all).chain(guarded).collect()
+}
+
+/// Linear relations between words, in general or under a guard.
+fn lines(words: &[Vec<Lit>], samples: &Samples, pairs: &[(usize, usize)]) -> BTreeSet<(usize, usize, (u64, u64))> {
+    let mut found = BTreeSet::new();
+    for places in kept(samples) {
+        for &(i, j) in pairs {
+            for (x, y) in [(i, j), (j, i)] {
+                let both = places.iter().map(|&at| (samples.words[x][at], samples.words[y][at]));
+                if let Some(line) = relation(both, words[y].len()) {
+                    found.insert((x, y, line));
+                    break;
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The least and the greatest value of words, in general or under a guard, where these are few.
+fn bounds(words: &[Vec<Lit>], samples: &Samples) -> BTreeSet<(usize, u64, u64)> {
+    let mut found = BTreeSet::new();
+    for places in kept(samples) {
+        for word in 0..words.len() {
+            let values = places.iter().map(|&at| samples.words[word][at]);
+            if let (Some(least), Some(most)) = (values.clone().min(), values.max())
+                && found.len() < BOUNDS
+            {
+                found.insert((word, least, most));
+            }
+        }
+    }
+    found
 }
 
 /// Less, greater and equal, unsigned and signed.

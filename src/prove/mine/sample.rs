@@ -10,30 +10,42 @@ pub(super) struct Samples {
     valid: Vec<u64>,
     /// For each word, values of some runs in some cycles.
     pub(super) words: Vec<Vec<u64>>,
+    /// For each guard, whether it was true there.
+    pub(super) guards: Vec<Vec<bool>>,
 }
 
-/// Episodes, and cycles in each.
-const EPISODES: [usize; 6] = [12, 12, 40, 100, 300, 1500];
+/// What to look at.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Wanted<'a> {
+    pub(super) nodes: &'a [Lit],
+    pub(super) words: &'a [Vec<Lit>],
+    pub(super) guards: &'a [Lit],
+}
+
+/// Episodes: how many cycles, and how long inputs stay as they are, as the exponent of two of the mean; in an episode of
+/// short length they change at every cycle.
+const EPISODES: [(usize, u32); 10] =
+    [(12, 1), (12, 3), (40, 1), (60, 4), (120, 5), (300, 6), (300, 4), (600, 7), (1200, 8), (1200, 10)];
+
+/// Runs whose words are kept.
+const LANES: u32 = 8;
 
 impl Samples {
-    pub(super) fn take(model: &Model, nodes: &[Lit], words: &[Vec<Lit>]) -> Self {
-        let mut samples =
-            Self { nodes: vec![Vec::new(); nodes.len()], valid: Vec::new(), words: vec![Vec::new(); words.len()] };
+    pub(super) fn take(model: &Model, wanted: Wanted<'_>) -> Self {
+        let mut samples = Self {
+            nodes: vec![Vec::new(); wanted.nodes.len()],
+            valid: Vec::new(),
+            words: vec![Vec::new(); wanted.words.len()],
+            guards: vec![Vec::new(); wanted.guards.len()],
+        };
         let mut random = Random::new(1);
-        for (episode, &cycles) in EPISODES.iter().enumerate() {
-            samples.episode(model, nodes, words, &mut random, (episode, cycles));
+        for (cycles, calm) in EPISODES {
+            samples.episode(model, wanted, &mut random, cycles, calm);
         }
         samples
     }
 
-    fn episode(
-        &mut self,
-        model: &Model,
-        nodes: &[Lit],
-        words: &[Vec<Lit>],
-        random: &mut Random,
-        (episode, cycles): (usize, usize),
-    ) {
+    fn episode(&mut self, model: &Model, wanted: Wanted<'_>, random: &mut Random, cycles: usize, calm: u32) {
         let mut run = Simulator::new(model);
         let first: Vec<u64> = model
             .latches
@@ -49,12 +61,11 @@ impl Samples {
             }
             let before = inputs.clone();
             for input in &mut inputs {
-                let keep = if episode % 2 == 0 { 0 } else { random.next() | random.next() | random.next() };
-                *input = (*input & keep) | (random.next() & !keep);
+                *input ^= (0..calm).fold(u64::MAX, |flips, _| flips & random.next());
             }
             alive = constrained(model, &mut run, &mut inputs, &before, alive, random);
-            if cycle < 64 || cycle % 16 == 0 {
-                self.record(&run, nodes, words, alive);
+            if cycle < 64 || cycle % 8 == 0 {
+                self.record(&run, wanted, alive);
             }
             if alive == 0 {
                 break;
@@ -62,15 +73,18 @@ impl Samples {
         }
     }
 
-    fn record(&mut self, run: &Simulator<'_>, nodes: &[Lit], words: &[Vec<Lit>], alive: u64) {
+    fn record(&mut self, run: &Simulator<'_>, wanted: Wanted<'_>, alive: u64) {
         self.valid.push(alive);
-        for (values, &node) in self.nodes.iter_mut().zip(nodes) {
+        for (values, &node) in self.nodes.iter_mut().zip(wanted.nodes) {
             values.push(run.value(node) & alive);
         }
-        for (values, word) in self.words.iter_mut().zip(words) {
-            for lane in (0..64).step_by(13).filter(|lane| alive >> lane & 1 == 1) {
+        for lane in (0..64).step_by(64 / LANES as usize).filter(|lane| alive >> lane & 1 == 1) {
+            for (values, word) in self.words.iter_mut().zip(wanted.words) {
                 let bits = word.iter().take(64).enumerate();
                 values.push(bits.map(|(i, &b)| (run.value(b) >> lane & 1) << i).sum());
+            }
+            for (values, &guard) in self.guards.iter_mut().zip(wanted.guards) {
+                values.push(run.value(guard) >> lane & 1 == 1);
             }
         }
     }
