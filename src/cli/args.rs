@@ -9,9 +9,9 @@ const EXIT_CODES: &str = "\
 Exit codes:
   0  done; for `check`: nothing at or above the denied severity, and the gate is reached
   1  `check` found something at or above the denied severity, or the gate is not reached;
-     `verify` found a violated table; `diff` found what the gate denies; `evidence verify` found a change
+     `verify` or `run` found a violated table; `diff` found what the gate denies; `evidence verify` found a change
   2  unusable input, configuration, arguments or tables
-  3  `verify` left a table undecided: bounded, or not supported
+  3  `verify` left a table undecided, or `run` could not play it: bounded, or not supported
 
 Start with:
   rungbook build                  the manual of this folder, in target/rungbook
@@ -41,6 +41,8 @@ pub(crate) enum Command {
     Table(super::commands::table::TableArgs),
     /// Decide whether blocks conform to their test tables, in runs of every length
     Verify(VerifyArgs),
+    /// Play tables on their blocks, cycle by cycle, or hold a recorded trace against them
+    Run(super::commands::run::RunArgs),
     /// Pack a release with its evidence, sign it, check it again
     #[command(subcommand)]
     Evidence(EvidenceCommand),

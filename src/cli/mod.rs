@@ -63,6 +63,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Check(args) => commands::check::run(&args),
         Command::Table(args) => commands::table::run(&args),
         Command::Verify(args) => commands::verify::run(&args),
+        Command::Run(args) => commands::run::run(&args),
         Command::Evidence(command) => commands::evidence::run(&command),
         Command::Diff(args) => commands::diff::run(&args),
         Command::Explain(args) => commands::explain::run(&args),

@@ -10,6 +10,7 @@ mod libraries;
 mod overrides;
 mod read;
 pub mod records;
+pub mod run;
 pub mod snapshot;
 mod tables;
 pub mod tell;

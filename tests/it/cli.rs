@@ -1,6 +1,7 @@
 //! The command line: exit codes, what goes to stdout and to stderr, what is written.
 
 mod export;
+mod run;
 mod table;
 
 use std::fs;

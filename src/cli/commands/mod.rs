@@ -8,5 +8,6 @@ pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod init;
 pub(crate) mod print;
+pub(crate) mod run;
 pub(crate) mod table;
 pub(crate) mod verify;

@@ -103,7 +103,7 @@ fn apply(args: &VerifyArgs, settings: &mut Settings) -> Result<(), Failure> {
 }
 
 /// The files, by their names; files of one name keep their folders.
-fn memory(paths: &[PathBuf]) -> Result<Memory, Failure> {
+pub(super) fn memory(paths: &[PathBuf]) -> Result<Memory, Failure> {
     let mut fs = Memory::new();
     for path in paths {
         let bytes = fs::read(path).map_err(|error| Failure(format!("`{}`: {error}", path.display())))?;
@@ -116,7 +116,7 @@ fn memory(paths: &[PathBuf]) -> Result<Memory, Failure> {
 }
 
 /// Binds every table to the unit that the command line names.
-fn attach(project: &mut Project, unit: &str) -> Result<(), Failure> {
+pub(super) fn attach(project: &mut Project, unit: &str) -> Result<(), Failure> {
     let found = project.catalogue.iter().find(|(_, item)| fold(&item.name) == fold(unit)).map(|(id, _)| id);
     let id = found.ok_or_else(|| Failure(format!("no block is named `{unit}`")))?;
     project.tables.iter_mut().for_each(|table| table.item = Some(id));

@@ -9,6 +9,7 @@ mod markdown;
 mod metrics;
 pub(crate) mod outcome;
 pub(crate) mod progress;
+pub(crate) mod run;
 mod sarif;
 pub(crate) mod summary;
 pub(crate) mod text;

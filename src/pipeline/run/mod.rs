@@ -12,7 +12,6 @@ mod show;
 use std::collections::BTreeMap;
 
 use super::Project;
-use crate::config::Settings;
 use crate::diagnostic::Severity;
 use crate::library::ItemId;
 use crate::machine::elaborate::{self, elaborate};
@@ -78,7 +77,7 @@ struct Ready<'a> {
 }
 
 impl<'a> Ready<'a> {
-    fn new(project: &'a Project, settings: &Settings, index: usize) -> Result<Self, NotPlayed> {
+    fn new(project: &'a Project, index: usize) -> Result<Self, NotPlayed> {
         let attached = &project.tables[index];
         let table = &attached.table;
         if table.has_errors() {
@@ -103,7 +102,7 @@ impl<'a> Ready<'a> {
                 NoAutomaton::TooLarge => "its rows can follow each other in too many ways",
             })
         })?;
-        Ok(Self { project, index, bound, automaton, cycle_time: cycle_time(project, settings, index) })
+        Ok(Self { project, index, bound, automaton, cycle_time: cycle_time(project, index) })
     }
 
     fn unit(&self) -> ItemId {
@@ -111,7 +110,8 @@ impl<'a> Ready<'a> {
     }
 
     fn program(&self) -> Result<Program, NotPlayed> {
-        let options = elaborate::Options { cycle_time: self.cycle_time, ..elaborate::Options::default() };
+        let stubs = self.project.asked.stubs.iter().map(|(_, stub)| stub.clone()).collect();
+        let options = elaborate::Options { cycle_time: self.cycle_time, stubs, ..elaborate::Options::default() };
         elaborate(&self.project.catalogue, &self.project.names, self.unit(), &options).map_err(|list| {
             let files = &self.project.files;
             let line = |one: elaborate::Unsupported| match one.place {
@@ -126,19 +126,18 @@ impl<'a> Ready<'a> {
     }
 }
 
-/// The cycle time of a table in nanoseconds: its own, or the configured one, or 10 ms.
+/// The cycle time of a table in nanoseconds.
 #[must_use]
-pub fn cycle_time(project: &Project, settings: &Settings, index: usize) -> u64 {
-    let own = project.tables[index].table.options.cycle.map(|cycle| cycle.nanos).or(settings.tables.all.cycle);
-    own.and_then(|nanos| u64::try_from(nanos).ok()).filter(|nanos| *nanos > 0).unwrap_or(10_000_000)
+pub fn cycle_time(project: &Project, index: usize) -> u64 {
+    super::verify::asked(project, &project.tables[index].table).0
 }
 
 /// Plays a table on its block.
 ///
 /// # Errors
 /// Why it cannot be played.
-pub fn play(project: &Project, settings: &Settings, index: usize, options: &Options) -> Result<Outcome, NotPlayed> {
-    let ready = Ready::new(project, settings, index)?;
+pub fn play(project: &Project, index: usize, options: &Options) -> Result<Outcome, NotPlayed> {
+    let ready = Ready::new(project, index)?;
     let program = ready.program()?;
     let table = &project.tables[index].table;
     let script = script::script(table, options.cycles, options.repeats).map_err(NotPlayed::because)?;
@@ -153,7 +152,7 @@ pub fn play(project: &Project, settings: &Settings, index: usize, options: &Opti
         }
     }
     picker.pick_globals(&values).map_err(NotPlayed::because)?;
-    let interpreter = interpret::Options::default();
+    let interpreter = interpret::Options { loop_limit: project.asked.loop_limit };
     let mut run = Interpreter::with(&program, &interpreter);
     let mut environment = Environment { globals: picker.globals().to_vec(), slots: picker.slots(), inputs: Vec::new() };
     for turn in &script {

@@ -7,7 +7,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::show::{self, Outcome};
 use super::{NotPlayed, Ready, passes};
-use crate::config::Settings;
 use crate::machine::program::Program;
 use crate::machine::trace::Trace;
 use crate::pipeline::Project;
@@ -24,8 +23,8 @@ const CHOICES: usize = 10_000;
 
 /// How values of a variable of the table are written, by its path; `None` for one that it does not name.
 #[must_use]
-pub fn kind(project: &Project, settings: &Settings, index: usize, path: &str) -> Option<Kind> {
-    let ready = Ready::new(project, settings, index).ok()?;
+pub fn kind(project: &Project, index: usize, path: &str) -> Option<Kind> {
+    let ready = Ready::new(project, index).ok()?;
     let variable = ready.bound.variables.iter().find(|variable| variable.path.eq_ignore_ascii_case(path))?;
     let program = if variable.enumeration.is_some() { ready.program().ok() } else { None };
     Some(show::kind(project, program.as_ref(), variable.scalar, variable.enumeration))
@@ -35,8 +34,8 @@ pub fn kind(project: &Project, settings: &Settings, index: usize, path: &str) ->
 ///
 /// # Errors
 /// Why it cannot be done.
-pub fn monitor(project: &Project, settings: &Settings, index: usize, trace: &Trace) -> Result<Outcome, NotPlayed> {
-    let ready = Ready::new(project, settings, index)?;
+pub fn monitor(project: &Project, index: usize, trace: &Trace) -> Result<Outcome, NotPlayed> {
+    let ready = Ready::new(project, index)?;
     // Only initial values are needed of the block, and only where cells look back beyond the first cycle.
     let program = ready.program();
     let initial = initial(&ready, program.as_ref().ok());

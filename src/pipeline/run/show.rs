@@ -4,7 +4,7 @@ use super::{Project, Ready, passes, trace_of};
 use crate::library::ItemId;
 use crate::machine::program::{Program, Role};
 use crate::machine::trace::{Signal, Trace};
-use crate::recheck::replay::{End, Environment, Failed, Replay};
+use crate::recheck::replay::{Cycle, End, Environment, Failed, Replay};
 use crate::semantics::expr::Fault;
 use crate::semantics::scalar::Scalar;
 use crate::semantics::show::{Kind, literal};
@@ -78,7 +78,12 @@ fn trace(ready: &Ready<'_>, program: &Program, replay: &Replay) -> Trace {
 }
 
 pub(super) fn outcome(ready: &Ready<'_>, program: &Program, environment: &Environment, replay: &Replay) -> Outcome {
-    let rows = replay.cycles.iter().map(|cycle| cycle.live.clone()).collect();
+    // The rows of the cycle in which the table ends are those that were tried.
+    let rows = |cycle: &Cycle| match replay.end {
+        End::Ended if cycle.live.is_empty() => cycle.tried.iter().map(|(row, _)| *row).collect(),
+        _ => cycle.live.clone(),
+    };
+    let rows = replay.cycles.iter().map(rows).collect();
     let trace = trace(ready, program, replay);
     made(ready, Some(program), &environment.globals, rows, trace, &replay.end)
 }
