@@ -52,7 +52,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { loop_limit: 1_000, reals: Reals::Ieee, step_limit: 2_000_000, term_limit: 8_000_000 }
+        Self { loop_limit: 1_000, reals: Reals::Ieee, step_limit: 2_000_000, term_limit: 5_000_000 }
     }
 }
 
