@@ -29,7 +29,7 @@ fn answers_as_enumeration_does() {
                 solver.add(&clauses[clauses.len() - 1]);
             }
             let assumptions = random_clause(&mut random, count);
-            let extra = (random.next() % 2 == 0).then(|| random_clause(&mut random, count));
+            let extra = random.next().is_multiple_of(2).then(|| random_clause(&mut random, count));
             let answer = solver.solve(&assumptions, extra.as_deref(), None, u64::MAX);
             let with = |chosen: &[Lit]| {
                 let mut all = clauses.clone();

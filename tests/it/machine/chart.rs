@@ -11,7 +11,7 @@ use rungbook::source::Memory;
 
 fn program(text: &str) -> Result<Program, Vec<String>> {
     let settings = Settings::new(ConfigFile::default()).expect("the defaults");
-    let fs = Memory::new().with("unit.st", text.as_bytes().to_vec());
+    let fs = Memory::new().with("unit.st", text.as_bytes());
     let project = pipeline::read(&fs, "test", &settings, &|_| {});
     let (unit, _) = project.catalogue.iter().find(|(_, item)| item.name == "FB_Chart").expect("the block");
     let made = elaborate(&project.catalogue, &project.names, unit, &Options::default());

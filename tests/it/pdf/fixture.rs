@@ -127,6 +127,7 @@ pub(super) fn table(name: &str, columns: Vec<ColumnView>, rows: Vec<RowView>, br
             key: "unverified",
             label: "unverified".to_owned(),
             note: "Nobody has checked this table yet.".to_owned(),
+            facts: Vec::new(),
         },
         facts: vec![("cycle".to_owned(), "10 ms".to_owned()), ("p".to_owned(), "1 <= p AND p <= 9".to_owned())],
         remark: text("The cylinder reaches its end position in time, or says so."),
@@ -134,6 +135,7 @@ pub(super) fn table(name: &str, columns: Vec<ColumnView>, rows: Vec<RowView>, br
         rows,
         brackets,
         errors: Vec::new(),
+        run: None,
     }
 }
 

@@ -116,7 +116,7 @@ fn walk(model: &Model, proof: &Proof, path: &mut Vec<u32>) {
     for step in steps(model, last).filter(|s| s.allowed) {
         if path.len() == proof.k + 1 {
             assert!(!step.bad, "the induction's step fails");
-        } else if !step.bad && !(proof.simple_path && path.len() < proof.k && path.contains(&step.to)) {
+        } else if !(step.bad || proof.simple_path && path.len() < proof.k && path.contains(&step.to)) {
             path.push(step.to);
             walk(model, proof, path);
             path.pop();

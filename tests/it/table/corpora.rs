@@ -195,7 +195,7 @@ fn judge(case: &Case, path: &str, tables: &[rungbook::table::AttachedTable], fin
                 let told =
                     |f: &&String| f.starts_with("table-unknown-name") && f.contains(&format!("no variable `{name}`"));
                 let told = findings.iter().find(told).unwrap_or_else(|| panic!("{name}: {findings:?}"));
-                assert!(told.contains(&format!("{name}")), "{told}");
+                assert!(told.contains(name), "{told}");
             }
             assert_eq!(errors, findings.iter().filter(|f| f.starts_with("table-unknown-name")).count());
         }

@@ -67,9 +67,9 @@ fn a_loop_that_may_turn_too_often_is_an_obligation() {
 fn branches(count: u32) -> Translated {
     let mut body = String::new();
     for number in 0..count {
-        let _ = write!(
+        let _ = writeln!(
             body,
-            "IF x = {number} THEN n := n + {number}; IF n > 10 THEN RETURN; END_IF m[{}] := n; ELSE n := n - 1; END_IF\n",
+            "IF x = {number} THEN n := n + {number}; IF n > 10 THEN RETURN; END_IF m[{}] := n; ELSE n := n - 1; END_IF",
             number % 8
         );
     }
