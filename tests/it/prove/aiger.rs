@@ -64,3 +64,52 @@ pub(crate) fn write(model: &Model) -> Vec<u8> {
     }
     out
 }
+
+/// Reads what `write` writes: no constraints, one output, which is bad.
+pub(crate) fn read(file: &[u8]) -> Model {
+    let mut rest = file;
+    let mut line = || {
+        let end = rest.iter().position(|&b| b == b'\n').expect("a line");
+        let text = String::from_utf8_lossy(&rest[..end]).into_owned();
+        rest = &rest[end + 1..];
+        text.split(' ').filter_map(|n| n.parse::<u32>().ok()).collect::<Vec<_>>()
+    };
+    let head = line();
+    let (inputs, latches, gates) = (head[1], head[2], head[4]);
+    let states: Vec<Vec<u32>> = (0..latches).map(|_| line()).collect();
+    let bad = line()[0];
+    let mut model = Model::default();
+    model.inputs = (0..inputs).map(|_| model.aig.leaf()).collect();
+    let leaves: Vec<Lit> = (0..latches).map(|_| model.aig.leaf()).collect();
+    let mut known = vec![Lit::FALSE];
+    known.extend(model.inputs.iter().chain(&leaves));
+    let mut bytes = rest.iter();
+    let mut delta = || {
+        let (mut value, mut shift) = (0, 0);
+        loop {
+            let byte = *bytes.next().expect("a byte");
+            value |= u32::from(byte & 0x7F) << shift;
+            shift += 7;
+            if byte & 0x80 == 0 {
+                return value;
+            }
+        }
+    };
+    let at = |known: &[Lit], l: u32| known[(l / 2) as usize].invert_if(l % 2 == 1);
+    for gate in 0..gates {
+        let a = 2 * (inputs + latches + 1 + gate) - delta();
+        let b = a - delta();
+        let lit = model.aig.and(at(&known, a), at(&known, b));
+        known.push(lit);
+    }
+    for (state, &lit) in states.iter().zip(&leaves) {
+        let initial = match state.get(1) {
+            None | Some(0) => Some(false),
+            Some(1) => Some(true),
+            Some(_) => None,
+        };
+        model.latches.push(Latch { lit, next: at(&known, state[0]), initial });
+    }
+    model.bad = vec![at(&known, bad)];
+    model
+}
