@@ -2,8 +2,8 @@
 //!
 //! With one job the order is fixed and shares are counted in work, not in time, so that the same model gives the same
 //! answer with the same evidence: a short search for a violation, mining, then IC3 and induction (which searches for
-//! violations on the side) with what was mined, and IC3 without, in turns that grow. With two jobs induction runs beside the rest and the first answer counts:
-//! its kind is the same, its evidence may differ.
+//! violations on the side) with what was mined, and IC3 without, in turns that grow. With two jobs induction runs beside
+//! mining and IC3, and the first answer counts: its kind is the same, its evidence may differ.
 
 use super::bmc::BmcSearch;
 use super::engine::{Answer, Budget, Cancel, Engine, Hints, Progress, Reason, Search, bounded, drive};

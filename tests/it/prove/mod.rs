@@ -114,6 +114,15 @@ fn families_are_decided_with_evidence() {
 }
 
 #[test]
+fn aiger_files_say_the_same() {
+    for seed in 0..cases(200) {
+        let model = random::model(seed, 6);
+        let again = aiger::read(&aiger::write(&model));
+        assert_eq!(explicit::shortest(&model), explicit::shortest(&again), "seed {seed}");
+    }
+}
+
+#[test]
 fn one_job_gives_the_same_evidence_each_time() {
     let system = minmax(5, false);
     let (once, again) = (decide(&system, 1), decide(&system, 1));
