@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 
 use super::Project;
-use crate::config::Settings;
 use crate::library::ItemId;
 use crate::logic::blast::blast;
 use crate::logic::write;
@@ -36,14 +35,19 @@ pub fn units(project: &Project, name: &str) -> Vec<ItemId> {
 ///
 /// # Errors
 /// Each construct that is not modelled, as a message with its place.
-pub fn system(project: &Project, settings: &Settings, unit: ItemId) -> Result<Translated, Vec<String>> {
-    let cycle = settings.tables.all.cycle.and_then(|nanos| u64::try_from(nanos).ok()).filter(|nanos| *nanos > 0);
+pub fn system(project: &Project, unit: ItemId) -> Result<Translated, Vec<String>> {
+    let asked = &project.asked;
+    let cycle = asked.cycle.and_then(|nanos| u64::try_from(nanos).ok()).filter(|nanos| *nanos > 0);
     let default = elaborate::Options::default();
-    let options = elaborate::Options { cycle_time: cycle.unwrap_or(default.cycle_time), ..default };
+    let options = elaborate::Options {
+        cycle_time: cycle.unwrap_or(default.cycle_time),
+        stubs: asked.stubs.iter().map(|(_, stub)| stub.clone()).collect(),
+        ..default
+    };
     let program = elaborate(&project.catalogue, &project.names, unit, &options).map_err(|list| {
         list.into_iter().map(|one| located(project, one.place, &one.message, &one.help)).collect::<Vec<_>>()
     })?;
-    let options = translate::Options { loop_limit: settings.verify.loop_limit, ..translate::Options::default() };
+    let options = translate::Options { loop_limit: asked.loop_limit, ..translate::Options::default() };
     translate(&program, &options)
         .map_err(|one| vec![located(project, one.place, &format!("{} is not modelled", one.what), "")])
 }

@@ -37,13 +37,13 @@ enum Format {
 
 pub(crate) fn run(args: &ExportArgs) -> Result<Exit, Failure> {
     let form = form(args)?;
-    let (project, settings) = tree::read(&args.tree, None, &Progress::new(args.tree.quiet))?;
+    let (project, _) = tree::read(&args.tree, None, &Progress::new(args.tree.quiet))?;
     let unit = match export::units(&project, &args.block).as_slice() {
         [] => return Err(Failure(format!("`{}` is not in this tree", args.block))),
         [unit] => *unit,
         several => return Err(Failure(format!("`{}` is declared {} times in this tree", args.block, several.len()))),
     };
-    let translated = match export::system(&project, &settings, unit) {
+    let translated = match export::system(&project, unit) {
         Ok(translated) => translated,
         Err(reasons) => {
             for reason in &reasons {
