@@ -6,12 +6,18 @@
 //! tree of files ─ source ─▶ units ─ syntax ─▶ trees ─ library ─▶ the resolved library
 //!                                                       │
 //!                  docs (what the comments say) ◀───────┤
-//!                  table (test tables) ◀────────────────┘
+//!                  table (test tables, bound) ◀─────────┤
+//!                  machine (transition system) ◀────────┘
+//!                         │
+//!          prove ─▶ verdicts, certificates, runs ─▶ recheck ─▶ evidence
 //!                         │
 //!   audit (findings) ─────┤
 //!                         ▼
 //!   figure ─▶ book (pages, addresses, search, views) ─▶ render/html · render/pdf ─▶ bytes
 //! ```
+//!
+//! `logic` (terms, graphs, solvers) and `semantics` (what types and operators mean) stand below tables and machine, so that a
+//! cell and a statement cannot mean different things.
 //!
 //! It flows one way; nothing calls back. Each room's own module doc says what it is for and what
 //! it leaves to others; `tests/it/tidy.rs` holds which room may import which, and fails on an

@@ -156,7 +156,7 @@ pub(crate) struct VerifyArgs {
     /// How many tables at a time [default: one for each core]
     #[arg(short, long, value_name = "N")]
     pub(crate) jobs: Option<usize>,
-    /// Strict conformance: the environment may not keep a block in its table for ever
+    /// Strict conformance, which this version does not decide: such tables are `unsupported`
     #[arg(long)]
     pub(crate) strict: bool,
     /// Cycle time of tables that state none, such as 4ms

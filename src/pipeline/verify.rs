@@ -138,6 +138,10 @@ fn reason(message: impl Into<String>, help: impl Into<String>) -> Reason {
 }
 
 fn prepare(project: &Project, attached: &AttachedTable, cycle_time: u64) -> Result<Ready, Verdict> {
+    if project.asked.strict || attached.table.options.strict {
+        let help = "ask for weak conformance, the default: that no run violates the table";
+        return Err(Verdict::Unsupported(vec![reason("strict conformance is not decided by this version", help)]));
+    }
     let (unit, table) = bound(project, attached)?;
     let automaton = Automaton::build(&attached.table).map_err(|error| no_automaton(error, &attached.table))?;
     let options = elaborate::Options {
