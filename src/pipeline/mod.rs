@@ -9,6 +9,7 @@ pub mod export;
 mod libraries;
 mod overrides;
 mod read;
+pub mod recheck;
 pub mod records;
 pub mod run;
 pub mod snapshot;
@@ -79,6 +80,13 @@ pub struct Asked {
     pub loop_limit: u64,
     /// What stands for blocks that have no source, and what the user calls each.
     pub stubs: Vec<(String, crate::machine::elaborate::Stub)>,
+}
+
+/// What stands for the block `name`: a text, or outputs that are anything.
+fn stub(name: &str, text: &str) -> crate::machine::elaborate::Stub {
+    let arbitrary = text == "arbitrary";
+    let text = if arbitrary { format!("FUNCTION_BLOCK {name}\nEND_FUNCTION_BLOCK\n") } else { text.to_owned() };
+    crate::machine::elaborate::Stub { text, arbitrary }
 }
 
 /// A source tree, read and understood.

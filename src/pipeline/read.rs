@@ -79,9 +79,8 @@ fn asked(fs: &dyn FileSystem, settings: &Settings) -> Asked {
         String::from_utf8(bytes).ok()
     };
     let stub = |(name, value): (&String, &String)| {
-        let arbitrary = value == "arbitrary";
-        let text = if arbitrary { format!("FUNCTION_BLOCK {name}\nEND_FUNCTION_BLOCK\n") } else { text(value)? };
-        Some((name.clone(), crate::machine::elaborate::Stub { text, arbitrary }))
+        let text = if value == "arbitrary" { value.clone() } else { text(value)? };
+        Some((name.clone(), super::stub(name, &text)))
     };
     let constants = settings.tables.all.constants.iter();
     Asked {

@@ -8,6 +8,7 @@ use super::{Project, artefact};
 use crate::config::Settings;
 use crate::library::ItemId;
 use crate::logic::certificate::Certificate;
+use crate::logic::system::System;
 use crate::machine::elaborate::{self, elaborate};
 use crate::machine::program::{Program, SlotId};
 use crate::machine::{interpret, translate};
@@ -102,12 +103,60 @@ pub fn verify(
 }
 
 /// A table and its block, ready to be decided.
-struct Ready {
+#[derive(Debug)]
+pub struct Ready {
     program: Arc<Program>,
     table: Arc<BoundTable>,
     automaton: Automaton,
     product: Product,
     loop_limit: u64,
+}
+
+impl Ready {
+    /// The obligation.
+    #[must_use]
+    pub const fn system(&self) -> &System {
+        &self.product.system
+    }
+
+    /// The slots that the environment sets.
+    #[must_use]
+    pub fn input_slots(&self) -> Vec<SlotId> {
+        self.product.inputs.clone()
+    }
+
+    /// Their names.
+    #[must_use]
+    pub fn input_names(&self) -> Vec<&str> {
+        let slots = self.product.inputs.iter().map(|slot| &self.program.slots[slot.0 as usize]);
+        slots.map(|slot| slot.name.as_str()).collect()
+    }
+
+    /// Plays `environment` on the interpreter and the game.
+    #[must_use]
+    pub fn replay(&self, environment: &Environment) -> Replay {
+        let subject = Subject {
+            program: &self.program,
+            options: interpret::Options { loop_limit: self.loop_limit },
+            table: &self.table,
+            automaton: &self.automaton,
+        };
+        replay(&subject, environment)
+    }
+}
+
+/// The table with this index and its block, ready to be decided.
+///
+/// # Errors
+/// Why they are not.
+pub fn ready(project: &Project, table: usize) -> Result<Ready, String> {
+    let attached = &project.tables[table];
+    prepare(project, attached, cycle_time(&attached.table, project)).map_err(|verdict| match verdict {
+        Verdict::Unsupported(reasons) | Verdict::Unusable(reasons) => {
+            reasons.into_iter().map(|reason| reason.message).collect::<Vec<_>>().join("; ")
+        }
+        other => other.word().to_owned(),
+    })
 }
 
 /// The table's cycle time, or the configured one, or 10 ms.
@@ -273,13 +322,7 @@ fn confirm_run(ready: &Ready, choice: &Choice, made: &mut Verified) {
         slots: ready.product.inputs.clone(),
         inputs: choice.inputs.clone(),
     };
-    let subject = Subject {
-        program: &ready.program,
-        options: interpret::Options { loop_limit: ready.loop_limit },
-        table: &ready.table,
-        automaton: &ready.automaton,
-    };
-    let replay = replay(&subject, &environment);
+    let replay = ready.replay(&environment);
     let loss = match &replay.end {
         End::Lost(rows) => Loss::Table(rows.iter().map(failed).collect()),
         End::Fault(fault) => Loss::Fault { fault: fault.fault, place: fault.place },

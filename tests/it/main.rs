@@ -27,3 +27,4 @@ mod table;
 mod tidy;
 mod totals;
 mod translate;
+mod verify;

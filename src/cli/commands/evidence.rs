@@ -15,6 +15,7 @@ use crate::evidence::bundle::write::{Contents, bundle, record_path};
 use crate::evidence::digest::canonical;
 use crate::evidence::record::{self, Answer, Record};
 use crate::evidence::{diff, snapshot};
+use crate::pipeline::recheck::Checker;
 use crate::pipeline::{self, Project, Stamp};
 use crate::source::Disk;
 use crate::table::write::gtt;
@@ -139,9 +140,6 @@ fn read_signer(path: &Path) -> Result<Signer, Failure> {
     Signer::parse(&text).map_err(|message| failure(path, message))
 }
 
-/// Checks an artefact again; `None` while this build has no checker for it.
-const RECHECK: Option<&Recheck<'static>> = None;
-
 fn check(args: &BundleVerifyArgs) -> Result<Exit, Failure> {
     let key = |path: &PathBuf| {
         let text = fs::read_to_string(path).map_err(|error| failure(path, error))?;
@@ -156,7 +154,9 @@ fn check(args: &BundleVerifyArgs) -> Result<Exit, Failure> {
         return Err(Failure("there is no key in the files that were given".to_owned()));
     }
     let bytes = fs::read(&args.file).map_err(|error| failure(&args.file, error))?;
-    let report = verify(&bytes, &keys, RECHECK);
+    let checker = Checker::default();
+    let recheck: &Recheck<'_> = &|record, artefact, files| checker.check(record, artefact, files);
+    let report = verify(&bytes, &keys, Some(recheck));
     if !(args.quiet && report.holds()) {
         print(&tell(args, &report));
     }

@@ -1,0 +1,85 @@
+//! `verify` from the command line: verdicts, exit codes, what is kept, and what is checked again.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+const TOGGLE: &str = "(* A lamp that a press switches on.\n\n   @gtt Stays on\n   | # | in Press | out Lamp | dur |\n   |---|---|---|---|\n   \
+                      | 1 | F | F | - |\n   | 2 | T | T | 1 |\n   | 3 | - | T | -∞ |\n*)\n\
+                      FUNCTION_BLOCK FB_Lamp\nVAR_INPUT Press : BOOL; END_VAR\nVAR_OUTPUT Lamp : BOOL; END_VAR\n\
+                      IF Press THEN Lamp := TRUE; END_IF\nEND_FUNCTION_BLOCK\n";
+
+/// The exit code and the answer.
+fn verify(arguments: &[&str], folder: &Path) -> (i32, Value) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rungbook"));
+    let output = command.current_dir(folder).args(["verify", "-q", "--format", "json"]).args(arguments).output();
+    let output = output.expect("it runs");
+    let value = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(&output.stderr)));
+    (output.status.code().unwrap_or(-1), value)
+}
+
+fn folder(text: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("FB_Lamp.st"), text).expect("written");
+    folder
+}
+
+#[test]
+fn a_verdict_is_found_and_kept_until_something_changes() {
+    let folder = folder(TOGGLE);
+    let (code, first) = verify(&[], folder.path());
+    assert_eq!((code, &first["tables"][0]["verdict"]), (0, &Value::from("verified")));
+    assert_eq!(first["tables"][0]["known"], false);
+    let (code, again) = verify(&[], folder.path());
+    assert_eq!((code, &again["tables"][0]["known"]), (0, &Value::from(true)));
+    // A comment is no change; the body is.
+    fs::write(folder.path().join("FB_Lamp.st"), format!("{TOGGLE}// a comment\n")).expect("written");
+    assert_eq!(verify(&[], folder.path()).1["tables"][0]["known"], true);
+    fs::write(folder.path().join("FB_Lamp.st"), TOGGLE.replace("Lamp := TRUE", "Lamp := NOT Lamp")).expect("written");
+    let (code, broken) = verify(&[], folder.path());
+    let table = &broken["tables"][0];
+    assert_eq!((code, &table["verdict"]), (1, &Value::from("violated")));
+    assert_eq!((&table["row"], &table["columns"][0]), (&Value::from("3"), &Value::from("Lamp")));
+    assert_eq!(table["run"]["cycles"].as_array().map(Vec::len), table["cycle"].as_u64().map(|cycle| cycle as usize));
+}
+
+#[test]
+fn what_is_not_modelled_and_what_is_wrong_have_exit_codes_of_their_own() {
+    let unmodelled = TOGGLE.replace("IF Press", "JMP next;\nnext:\nIF Press");
+    assert_eq!(verify(&[], folder(&unmodelled).path()).0, 3);
+    let wrong = TOGGLE.replace("out Lamp", "out Lump");
+    let (code, answer) = verify(&[], folder(&wrong).path());
+    assert_eq!((code, &answer["tables"][0]["verdict"]), (2, &Value::from("unusable")));
+    // Strict conformance is not decided, and is not taken for weak conformance.
+    let (code, answer) = verify(&["--strict"], folder(TOGGLE).path());
+    assert_eq!((code, &answer["tables"][0]["verdict"]), (3, &Value::from("unsupported")));
+}
+
+#[test]
+fn a_fault_while_the_table_holds_is_a_violation() {
+    let text = TOGGLE
+        .replace("IF Press THEN", "x := 10 / x;\nIF Press THEN")
+        .replace("VAR_OUTPUT", "VAR x : INT := 1; END_VAR\nVAR_OUTPUT");
+    let text = text.replace("x := 10 / x;", "x := x - 1; IF Press THEN x := 10 / x; END_IF");
+    let (code, answer) = verify(&[], folder(&text).path());
+    assert_eq!(code, 1, "{answer:#}");
+    assert_eq!(answer["tables"][0]["run"]["end"]["fault"], "division by zero");
+}
+
+#[test]
+fn a_bundle_is_checked_again_certificate_by_certificate() {
+    let folder = folder(TOGGLE);
+    assert_eq!(verify(&[], folder.path()).0, 0);
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_rungbook"));
+        command.current_dir(folder.path()).args(arguments).output().expect("it runs")
+    };
+    assert!(run(&["evidence", "bundle", ".", "-o", "release.zip"]).status.success());
+    let checked = run(&["evidence", "verify", "release.zip"]);
+    assert!(checked.status.success());
+    let text = String::from_utf8_lossy(&checked.stdout).into_owned();
+    assert!(text.contains("verified, checked again"), "{text}");
+}
