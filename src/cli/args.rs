@@ -46,6 +46,8 @@ pub(crate) enum Command {
     /// Pack a release with its evidence, sign it, check it again
     #[command(subcommand)]
     Evidence(EvidenceCommand),
+    /// Check the certificates and runs of a release bundle again, on this machine: as `evidence verify`
+    Recheck(BundleVerifyArgs),
     /// Compare two releases: interfaces, documentation, tables cell by cell, evidence
     Diff(DiffArgs),
     /// Explain a finding's code, or which comment documents an entity and why

@@ -81,5 +81,6 @@ fn a_bundle_is_checked_again_certificate_by_certificate() {
     let checked = run(&["evidence", "verify", "release.zip"]);
     assert!(checked.status.success());
     let text = String::from_utf8_lossy(&checked.stdout).into_owned();
+    assert_eq!(run(&["recheck", "release.zip"]).stdout, checked.stdout);
     assert!(text.contains("verified, checked again"), "{text}");
 }

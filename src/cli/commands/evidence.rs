@@ -140,7 +140,7 @@ fn read_signer(path: &Path) -> Result<Signer, Failure> {
     Signer::parse(&text).map_err(|message| failure(path, message))
 }
 
-fn check(args: &BundleVerifyArgs) -> Result<Exit, Failure> {
+pub(crate) fn check(args: &BundleVerifyArgs) -> Result<Exit, Failure> {
     let key = |path: &PathBuf| {
         let text = fs::read_to_string(path).map_err(|error| failure(path, error))?;
         let lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
