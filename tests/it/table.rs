@@ -11,6 +11,7 @@ mod instances;
 mod layout;
 mod papers;
 mod pipe;
+mod workbook;
 mod write;
 mod xml;
 

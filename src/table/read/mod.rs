@@ -9,6 +9,7 @@ mod repeat;
 pub mod sheet;
 mod stvs;
 mod test_manager;
+mod workbook;
 pub mod xml;
 
 use std::collections::BTreeMap;

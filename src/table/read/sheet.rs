@@ -5,11 +5,9 @@
 //! A sheet is turned into the text of pipe tables, which the reader of pipe tables reads; what had to be guessed on the
 //! way is a finding. A cell of a workbook has no place in its file, so a finding names it (`Sheet1!B4`).
 
-use std::io::Cursor;
 use std::ops::Range;
 
-use calamine::{Data, Reader};
-
+use super::workbook::{self, Sheet};
 use super::{Mapping, Options, Read, pipe};
 use crate::diagnostic::Finding;
 use crate::table::codes;
@@ -18,25 +16,25 @@ use crate::text::{FileId, Place, SpanMap};
 
 /// A cell of a sheet.
 #[derive(Clone, Debug, Default)]
-struct GridCell {
-    text: String,
+pub(super) struct GridCell {
+    pub(super) text: String,
     /// For each run of the text, where it stands in the piece.
     runs: Vec<(u32, u32)>,
     /// Where its text stands in the piece, as it was typed.
     span: Range<usize>,
     /// How the sheet calls it.
-    address: String,
+    pub(super) address: String,
     /// What had to be guessed or refused.
-    notes: Vec<Note>,
+    pub(super) notes: Vec<Note>,
 }
 
 #[derive(Clone, Debug)]
-enum Note {
+pub(super) enum Note {
     Guess(String),
     Refused(String),
 }
 
-type Grid = Vec<Vec<GridCell>>;
+pub(super) type Grid = Vec<Vec<GridCell>>;
 
 /// Pipe tables made from a sheet, and for each range of their text the cell that it came from.
 #[derive(Default)]
@@ -48,7 +46,7 @@ struct Made {
     end: usize,
 }
 
-fn saturate(value: usize) -> u32 {
+pub(super) fn saturate(value: usize) -> u32 {
     u32::try_from(value).unwrap_or(u32::MAX)
 }
 
@@ -76,26 +74,17 @@ pub fn csv(piece: &Piece<'_>, name: &str, options: &Options) -> Read {
 #[must_use]
 pub fn workbook(file: FileId, bytes: &[u8], options: &Options) -> Read {
     let mut out = Read::default();
-    let mut book = match calamine::open_workbook_auto_from_rs(Cursor::new(bytes)) {
-        Ok(book) => book,
-        Err(error) => {
-            let message = format!("this workbook cannot be opened: {error}");
-            out.findings.push(Finding::of_file(&codes::TABLE_SYNTAX, file, message));
-            return out;
-        }
-    };
-    for sheet in book.sheet_names() {
-        match book.worksheet_range(&sheet) {
-            Ok(range) => {
-                let formulas = book.worksheet_formula(&sheet).ok();
-                let grid = workbook_grid(&sheet, &range, formulas.as_ref());
-                sheet_tables(file, &sheet, &grid, options, &mut out);
-            }
-            Err(error) => {
-                let message = format!("sheet `{sheet}` cannot be read: {error}");
-                out.findings.push(Finding::of_file(&codes::TABLE_SYNTAX, file, message));
+    let failed = |message| Finding::of_file(&codes::TABLE_SYNTAX, file, message);
+    match workbook::sheets(bytes) {
+        Ok(sheets) => {
+            for Sheet { name, grid } in sheets {
+                match grid {
+                    Ok(grid) => sheet_tables(file, &name, &grid, options, &mut out),
+                    Err(error) => out.findings.push(failed(format!("sheet `{name}` cannot be read: {error}"))),
+                }
             }
         }
+        Err(error) => out.findings.push(failed(format!("this workbook cannot be opened: {error}"))),
     }
     if out.tables.is_empty() && out.findings.is_empty() {
         out.findings.push(nothing(Place::file(file), ""));
@@ -138,6 +127,13 @@ fn refused(read: &mut Read) {
     read.tables.iter_mut().for_each(|table| table.errors += errors);
 }
 
+impl GridCell {
+    /// An empty cell of a workbook, which has no place in its file.
+    pub(super) fn at(address: String) -> Self {
+        Self { address, ..Self::default() }
+    }
+}
+
 impl Note {
     fn finding(&self, place: Place, address: &str) -> Finding {
         match self {
@@ -145,54 +141,6 @@ impl Note {
             Self::Refused(message) => Finding::new(&codes::TABLE_IMPORT_REFUSED, place, format!("{message}{address}")),
         }
     }
-}
-
-/// `3` and `1` as `B4`.
-fn address(sheet: &str, row: usize, column: usize) -> String {
-    let mut letters = String::new();
-    let mut rest = column + 1;
-    while rest > 0 {
-        letters.insert(0, char::from(b'A' + u8::try_from((rest - 1) % 26).unwrap_or(0)));
-        rest = (rest - 1) / 26;
-    }
-    format!("{sheet}!{letters}{}", row + 1)
-}
-
-fn workbook_grid(sheet: &str, range: &calamine::Range<Data>, formulas: Option<&calamine::Range<String>>) -> Grid {
-    let (top, left) = range.start().unwrap_or((0, 0));
-    let cell = |row: usize, column: usize, data: &Data| {
-        let at = (top + saturate(row), left + saturate(column));
-        let address = address(sheet, at.0 as usize, at.1 as usize);
-        let mut cell = GridCell { address, ..GridCell::default() };
-        let mut refuse = |what: &str| cell.notes.push(Note::Refused(what.to_owned()));
-        cell.text = match data {
-            Data::Empty => String::new(),
-            Data::String(text) => text.trim().replace(['\n', '\r'], " "),
-            Data::Int(value) => value.to_string(),
-            Data::Float(value) => number(*value),
-            Data::Bool(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
-            Data::Error(error) => {
-                refuse(&format!("the formula of this cell failed: {error:?}"));
-                String::new()
-            }
-            _ => {
-                refuse("the spreadsheet made a date of this cell; format it as text");
-                String::new()
-            }
-        };
-        if formulas.and_then(|f| f.get_value(at)).is_some_and(|formula| !formula.is_empty()) {
-            let message = format!("this cell is a formula; its last value `{}` is taken", cell.text);
-            cell.notes.push(Note::Guess(message));
-        }
-        cell
-    };
-    let rows = range.rows().enumerate();
-    rows.map(|(row, line)| line.iter().enumerate().map(|(column, data)| cell(row, column, data)).collect()).collect()
-}
-
-fn number(value: f64) -> String {
-    #[allow(clippy::cast_possible_truncation, reason = "whole and small, so nothing is cut")]
-    if value.fract() == 0.0 && value.abs() < 1e15 { format!("{}", value as i64) } else { format!("{value:?}") }
 }
 
 /// Spellings that spreadsheets have and cells have not.
