@@ -260,12 +260,18 @@ fn case_statement(p: &mut Parser<'_>) {
     p.complete(marker, NodeKind::CaseStatement);
 }
 
+/// `labels: statements`, where [`at_case_label`] has found the labels and their colon.
 fn case_branch(p: &mut Parser<'_>) {
     let marker = p.start();
+    let start = p.position();
     loop {
         if range_or_expression(p).is_none() || !p.eat(TokenKind::Comma) {
             break;
         }
+    }
+    if p.position() == start {
+        // It only looks like a label, as `# 1:` does; a branch that takes no token would be read for ever.
+        skip_while(p, |p| !p.at(TokenKind::Colon));
     }
     p.expect(TokenKind::Colon);
     list(p, true);

@@ -1,6 +1,7 @@
 //! One function a fuzz target. Each takes any bytes and panics where a promise of the tool is broken: tokens are the
 //! text, findings lie inside their files, tables that are read can be written, no page runs what a comment says.
 
+use std::io::Write as _;
 use std::sync::LazyLock;
 
 use rungbook::config::{ConfigFile, Settings};
@@ -202,9 +203,24 @@ pub fn csv(data: &[u8]) {
     table(data, |piece, options| read::sheet::csv(piece, "S", options));
 }
 
-/// Workbooks.
+/// Workbooks: the bytes as they are, and what an archive of files headed by lines `=== path` is.
 pub fn workbook(data: &[u8]) {
-    tables(&read::sheet::workbook(FileId(0), data, &read::Options::default()), 0);
+    let parts = parts(data);
+    if parts.iter().any(|(name, _)| name.is_some()) {
+        let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+        let stored = zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+        for (name, rest) in &parts {
+            let Some(name) = name else { continue };
+            if archive.start_file(name, stored).is_ok() {
+                let _ = archive.write_all(rest);
+            }
+        }
+        if let Ok(bytes) = archive.finish() {
+            tables(&read::sheet::workbook(FileId(0), bytes.get_ref(), &read::Options::default()), 0);
+        }
+    } else {
+        tables(&read::sheet::workbook(FileId(0), data, &read::Options::default()), 0);
+    }
 }
 
 /// Comments in every style, above a header, behind a variable and as a page, up to the book.
@@ -231,12 +247,8 @@ pub fn docs(data: &[u8]) {
 /// A tree of files, each headed by a line `=== path`, up to the site. No page runs or loads what the tree says.
 pub fn chain(data: &[u8]) {
     let mut fs = Memory::new();
-    for part in data.split_inclusive(|byte| *byte == b'\n').collect::<Vec<_>>().chunk_by(|_, b| !b.starts_with(b"=== "))
-    {
-        let (head, rest) = part.split_first().map_or((&[][..], &[][..]), |(head, rest)| (*head, rest));
-        let name = head.strip_prefix(b"=== ").map(|name| String::from_utf8_lossy(name).trim().to_owned());
-        let name = name.filter(|name| possible(name)).unwrap_or_else(|| "a.st".to_owned());
-        fs = fs.with(&name, rest.concat());
+    for (name, rest) in parts(data) {
+        fs = fs.with(&name.unwrap_or_else(|| "a.st".to_owned()), rest);
     }
     let project = project(&fs);
     let book = pipeline::book(&project, &SETTINGS, &Stamp::default());
@@ -254,6 +266,17 @@ pub fn chain(data: &[u8]) {
             harmless(&page.path, &String::from_utf8_lossy(&page.bytes));
         }
     }
+}
+
+/// The files in `data`, each headed by a line `=== path`.
+fn parts(data: &[u8]) -> Vec<(Option<String>, Vec<u8>)> {
+    let lines: Vec<&[u8]> = data.split_inclusive(|byte| *byte == b'\n').collect();
+    let part = |lines: &[&[u8]]| {
+        let (head, rest) = lines.split_first().map_or((&[][..], &[][..]), |(head, rest)| (*head, rest));
+        let name = head.strip_prefix(b"=== ").map(|name| String::from_utf8_lossy(name).trim().to_owned());
+        (name.filter(|name| possible(name)), rest.concat())
+    };
+    lines.chunk_by(|_, line| !line.starts_with(b"=== ")).map(part).collect()
 }
 
 /// Whether a file system could give this name.
