@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::view::entity::{CoreView, EntityView, SectionView, TypePart};
-use super::view::finding::{FindingView, SkippedView};
+use super::view::finding::{FindingView, ReadingView, SkippedView};
 use super::view::prose::Inline;
 use super::view::{Book, Front, Totals};
 
@@ -26,6 +26,7 @@ struct Model<'a> {
     entities: Vec<Entity<'a>>,
     tables: Vec<Table<'a>>,
     findings: &'a [FindingView],
+    readings: &'a [ReadingView],
     skipped: &'a [SkippedView],
     externals: Vec<External<'a>>,
 }
@@ -114,6 +115,7 @@ pub fn render(book: &Book) -> String {
         entities: book.entities.iter().flat_map(entities).collect(),
         tables: book.entities.iter().flat_map(tables).collect(),
         findings: &book.findings,
+        readings: &book.readings,
         skipped: &book.skipped,
         externals: book.externals.iter().map(|(name, uses)| External { name, uses: *uses }).collect(),
     };

@@ -229,6 +229,7 @@ pub fn report_book(book: &Book, pages: usize) -> Book {
         coverage: crate::book::view::coverage::Coverage::default(),
         findings: Vec::new(),
         codes: Vec::new(),
+        readings: Vec::new(),
         skipped: Vec::new(),
         externals: Vec::new(),
         explanations: Vec::new(),

@@ -114,6 +114,8 @@ pub struct Project {
     pub allowed: Vec<Allowed>,
     /// Requirements and results that stand beside the tree.
     pub beside: evidence::Beside,
+    /// How the files were read, each way once.
+    pub readings: Vec<book::view::finding::ReadingView>,
     /// Files whose kind is read, and that were not: path and reason.
     pub skipped: Vec<(String, String)>,
     /// How many files are no PLC source.
@@ -182,6 +184,7 @@ pub fn book(project: &Project, settings: &Settings, stamp: &Stamp) -> Book {
         tables: &project.tables,
         answers: &project.answers,
         findings: &project.findings,
+        readings: &project.readings,
         skipped: &project.skipped,
         narratives: &project.narratives,
     });

@@ -1,13 +1,17 @@
 //! From a file system to a [`Project`].
 
+use std::collections::BTreeMap;
+
 use super::{Asked, Event, Events, Project, libraries, overrides, tables};
 use crate::audit::{self, Context};
+use crate::book::view::finding::ReadingView;
 use crate::config::Settings;
 use crate::diagnostic::Finding;
 use crate::docs;
 use crate::library::relations::Relations;
 use crate::library::{lower, resolve};
 use crate::source::{FileSystem, Progress, Tree, read_tree};
+use crate::text::Object;
 
 /// Reads the tree below `fs`, whose folder is called `name`.
 pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Events<'_>) -> Project {
@@ -33,6 +37,7 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
     let findings = in_order(findings, settings);
 
     let (skipped, other_files) = skipped(&tree);
+    let readings = readings(&tree);
     Project {
         name: name.to_owned(),
         source_files: tree.units.len(),
@@ -45,6 +50,7 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
         findings,
         allowed: Vec::new(),
         beside: super::evidence::Beside::default(),
+        readings,
         skipped,
         other_files,
         answers: Vec::new(),
@@ -118,6 +124,28 @@ pub(super) fn in_order(findings: Vec<Finding>, settings: &Settings) -> Vec<Findi
     });
     findings.dedup();
     findings
+}
+
+/// How the files of program text were read, each way with their number.
+fn readings(tree: &Tree) -> Vec<ReadingView> {
+    let mut counts: BTreeMap<(&str, &str, &'static str), usize> = BTreeMap::new();
+    for unit in &tree.units {
+        let own = |object: &Object| object.properties.iter().any(|(key, _)| key == "nested_comments");
+        let nest = match unit.nested_comments {
+            Some(true) => "yes",
+            Some(false) => "no",
+            None if unit.objects.iter().any(own) => "as each object says",
+            None => "open",
+        };
+        *counts.entry((unit.format, tree.files.get(unit.file).encoding.name(), nest)).or_default() += 1;
+    }
+    let reading = |((format, encoding, comments_nest), files): ((&str, &str, &'static str), usize)| ReadingView {
+        format: format.to_owned(),
+        encoding: encoding.to_owned(),
+        comments_nest,
+        files,
+    };
+    counts.into_iter().map(reading).collect()
 }
 
 /// The files that a manual should hold and does not, and the number of those that it need not.

@@ -21,6 +21,13 @@ pub static MISSING_SEMICOLON: Code =
 pub static FOREIGN_OPERATOR: Code =
     Code { name: "foreign-operator", severity: Severity::Warning, page: include_str!("pages/foreign-operator.md") };
 
+/// A comment that holds the beginning of another one, where nothing says whether comments nest.
+pub static COMMENT_NESTING_GUESSED: Code = Code {
+    name: "comment-nesting-guessed",
+    severity: Severity::Info,
+    page: include_str!("pages/comment-nesting-guessed.md"),
+};
+
 /// A comment or pragma that is never closed.
 pub static UNTERMINATED_COMMENT: Code = Code {
     name: "unterminated-comment",
@@ -42,6 +49,7 @@ pub static ALL: &[&Code] = &[
     &MISSING_END,
     &MISSING_SEMICOLON,
     &FOREIGN_OPERATOR,
+    &COMMENT_NESTING_GUESSED,
     &UNTERMINATED_COMMENT,
     &UNTERMINATED_STRING,
     &NESTING_TOO_DEEP,

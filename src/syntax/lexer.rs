@@ -6,7 +6,7 @@
 //! that is never closed.
 //!
 //! Whether `(* … *)` nests is guessed where the option leaves it open: it nests unless that would leave a
-//! comment open to the end of the text. After [`GUESSES`] wrong guesses the rest of the text is taken flat, which
+//! comment open to the end of the text; where it makes a difference, a finding says so. After [`GUESSES`] wrong guesses the rest of the text is taken flat, which
 //! keeps the time linear.
 
 use logos::Logos;
@@ -133,6 +133,7 @@ pub(super) fn lex(text: &str, options: &Options) -> Tokens {
         lexer: Raw::lexer(text),
         nested: options.nested_comments,
         guesses: GUESSES,
+        guess_told: false,
         pragma_guesses: GUESSES,
         no_more_braces: false,
         errors: Vec::new(),
@@ -154,6 +155,7 @@ pub(super) fn lex(text: &str, options: &Options) -> Tokens {
 struct Scanner<'a> {
     lexer: logos::Lexer<'a, Raw>,
     nested: Option<bool>,
+    guess_told: bool,
     guesses: u8,
     pragma_guesses: u8,
     no_more_braces: bool,
@@ -210,13 +212,34 @@ impl Scanner<'_> {
         let flat = || find(rest, b"*)").map(|at| at + 2);
         let length = match self.nested {
             Some(true) => nested_length(rest),
-            None if self.guesses > 0 => nested_length(rest).or_else(|| {
-                self.guesses -= 1;
-                flat()
-            }),
+            None if self.guesses > 0 => {
+                let (nested, flat) = (nested_length(rest), flat());
+                self.guesses -= u8::from(nested.is_none());
+                self.tell_guess(nested, flat);
+                nested.or(flat)
+            }
             _ => flat(),
         };
         self.comment(length, "`*)`")
+    }
+
+    /// Says, once a text, that it makes a difference whether comments nest.
+    fn tell_guess(&mut self, nested: Option<usize>, flat: Option<usize>) {
+        if self.guess_told || nested == flat {
+            return;
+        }
+        self.guess_told = true;
+        let how = if nested.is_some() {
+            "was read as nesting"
+        } else {
+            "was read as not nesting, as it would not end otherwise"
+        };
+        self.errors.push(SyntaxError {
+            span: Span::from(self.lexer.span()),
+            message: format!("the comment holds `(*` and {how}"),
+            help: None,
+            code: &codes::COMMENT_NESTING_GUESSED,
+        });
     }
 
     fn slash_comment(&mut self) -> TokenKind {

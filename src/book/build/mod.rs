@@ -21,6 +21,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::view::entity::EntityView;
+use super::view::finding::ReadingView;
 use super::view::{Book, Front, Totals};
 use crate::diagnostic::{Finding, Severity};
 use crate::docs::{Docs, Narrator};
@@ -57,6 +58,8 @@ pub struct Input<'a> {
     pub answers: &'a [Answer],
     /// All findings, by file and place.
     pub findings: &'a [Finding],
+    /// How the files were read, each way once.
+    pub readings: &'a [ReadingView],
     /// Files that should be here and are not: path and reason.
     pub skipped: &'a [(String, String)],
     /// The narrative pages.
@@ -125,6 +128,7 @@ pub fn build(input: &Input<'_>) -> Book {
         index: lists::index(&context, &order),
         findings: input.findings.iter().map(|finding| findings::view(finding, input.files)).collect(),
         codes: findings::codes(input.findings),
+        readings: input.readings.to_vec(),
         skipped: findings::skipped(input.skipped),
         externals: lists::externals(input.relations),
         explanations: narrative::explanations(&context),

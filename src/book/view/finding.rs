@@ -34,6 +34,19 @@ pub struct CodeCount {
     pub count: usize,
 }
 
+/// How files were read: some of it follows from what lies around them, or was guessed.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct ReadingView {
+    /// The format that they were taken for.
+    pub format: String,
+    /// Their encoding.
+    pub encoding: String,
+    /// Whether comments nest, as far as the format or the file says so: `yes`, `no`, `as each object says`, or `open`.
+    pub comments_nest: &'static str,
+    /// How many files.
+    pub files: usize,
+}
+
 /// A file that is not in the manual.
 #[derive(Clone, Debug, Serialize)]
 pub struct SkippedView {

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use coverage::Coverage;
 use entity::{EntityLink, EntityView};
-use finding::{CodeCount, FindingView, SkippedView};
+use finding::{CodeCount, FindingView, ReadingView, SkippedView};
 use prose::{Block, Inline};
 
 /// A whole manual, ready to be rendered.
@@ -37,6 +37,8 @@ pub struct Book {
     pub findings: Vec<FindingView>,
     /// The same, counted by code.
     pub codes: Vec<CodeCount>,
+    /// How the files were read, each way once.
+    pub readings: Vec<ReadingView>,
     /// Files that are not in the manual although their kind is read.
     pub skipped: Vec<SkippedView>,
     /// Names that are used and belong to no file of this tree, with how often.

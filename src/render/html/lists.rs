@@ -9,6 +9,7 @@ use super::prose::{Prose, message};
 use super::site::Site;
 use super::value::{list, markup, record, strings};
 use crate::book::view::coverage::{CoverageRow, Hole};
+use crate::book::view::finding::{CodeCount, ReadingView};
 use crate::book::view::prose::{Block, Href, Inline};
 use crate::book::view::{Book, Chapter, Entry, FolderView, IndexEntry, KindList, LibraryView};
 
@@ -282,12 +283,22 @@ pub(super) fn findings_path(book: &Book, code: &str) -> String {
     if findings_are_split(book) { format!("findings-{code}.html") } else { "findings.html".to_owned() }
 }
 
+/// What the group of `code` is called on its page: a code may have findings of more than one severity.
+fn group_id(book: &Book, code: &CodeCount) -> String {
+    let first = book.codes.iter().find(|other| other.code == code.code);
+    match first.is_none_or(|first| first.severity == code.severity) {
+        true => code.code.clone(),
+        false => format!("{}-{}", code.code, code.severity),
+    }
+}
+
 /// The findings; of `only` one code, or of all that fit on the first page.
 pub(super) fn findings(site: &Site<'_>, only: Option<&str>, place: &Place, context: &mut Context) {
     let book = site.book;
     let split = findings_are_split(book);
     let codes = list(&book.codes, |code| {
-        let href = if split { place.href(&findings_path(book, &code.code)) } else { format!("#rb-{}", code.code) };
+        let href =
+            if split { place.href(&findings_path(book, &code.code)) } else { format!("#rb-{}", group_id(book, code)) };
         record! {
             code: code.code.as_str(),
             title: code.title.as_str(),
@@ -304,8 +315,10 @@ pub(super) fn findings(site: &Site<'_>, only: Option<&str>, place: &Place, conte
         .iter()
         .filter(|code| shown(&code.code))
         .map(|code| {
-            let of_code = book.findings.iter().filter(|finding| finding.code == code.code);
+            let of_code = book.findings.iter();
+            let of_code = of_code.filter(|finding| finding.code == code.code && finding.severity == code.severity);
             record! {
+                id: group_id(book, code),
                 code: code.code.as_str(),
                 title: code.title.as_str(),
                 severity: code.severity,
@@ -326,6 +339,10 @@ pub(super) fn findings(site: &Site<'_>, only: Option<&str>, place: &Place, conte
 /// Files that are not in the manual, and names from elsewhere.
 pub(super) fn files(book: &Book, context: &mut Context) {
     let skipped = list(&book.skipped, |s| record! { file: s.file.as_str(), reason: s.reason.as_str() });
+    let reading = |r: &ReadingView| {
+        record! { format: r.format.as_str(), encoding: r.encoding.as_str(), nest: r.comments_nest, files: r.files }
+    };
+    context.insert_value("readings", list(&book.readings, reading));
     let externals = list(&book.externals, |(name, count)| record! { name: name.as_str(), count: *count });
     context.insert_value("skipped", skipped);
     context.insert_value("externals", externals);

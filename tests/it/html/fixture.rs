@@ -2,7 +2,7 @@
 
 use rungbook::book::view::coverage::{Coverage, CoverageRow, Hole};
 use rungbook::book::view::entity::*;
-use rungbook::book::view::finding::{CodeCount, FindingView, SkippedView};
+use rungbook::book::view::finding::{CodeCount, FindingView, ReadingView, SkippedView};
 use rungbook::book::view::prose::{Block, Href, Inline, ListItem};
 use rungbook::book::view::table::*;
 use rungbook::book::view::{Book, Chapter, Entry, FolderView, Front, IndexEntry, KindList, LibraryView, Totals};
@@ -675,6 +675,12 @@ fn of(entities: Vec<EntityView>) -> Book {
         })
         .into(),
         findings,
+        readings: vec![ReadingView {
+            format: "TwinCAT 3".to_owned(),
+            encoding: "UTF-8".to_owned(),
+            comments_nest: "open",
+            files: 3,
+        }],
         skipped: vec![SkippedView {
             file: "Handling/Old/Binary.TcPOU".to_owned(),
             reason: "not text: NUL bytes".to_owned(),

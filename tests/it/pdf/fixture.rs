@@ -5,7 +5,7 @@ use rungbook::book::view::entity::{
     CoreView, Diagram, EntityLink, EntityView, Fact, InheritedView, MemberView, Relation, RunClass, SectionView,
     SourceView, TypePart, VariableView,
 };
-use rungbook::book::view::finding::{CodeCount, FindingView, SkippedView};
+use rungbook::book::view::finding::{CodeCount, FindingView, ReadingView, SkippedView};
 use rungbook::book::view::prose::{Block, Href, Inline, ListItem};
 use rungbook::book::view::table::{BracketView, CellView, ColumnView, RowView, TableView, VerdictView};
 use rungbook::book::view::{Book, Chapter, Entry, FolderView, Front, IndexEntry, LibraryView, Totals};
@@ -518,6 +518,12 @@ pub(super) fn book(entities: Vec<EntityView>) -> Book {
             title: "A member without documentation".to_owned(),
             severity: "warning",
             count: 9,
+        }],
+        readings: vec![ReadingView {
+            format: "TwinCAT 3".to_owned(),
+            encoding: "UTF-8".to_owned(),
+            comments_nest: "open",
+            files: 3,
         }],
         skipped: vec![SkippedView { file: "Old/Broken.TcPOU".to_owned(), reason: "not decodable".to_owned() }],
         externals: vec![("TON".to_owned(), 4), ("Tc2_MC2.AXIS_REF".to_owned(), 2)],

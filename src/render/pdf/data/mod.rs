@@ -77,6 +77,7 @@ fn rest(book: &Book, parts: Parts) -> Result<Value, Error> {
         "coverage": coverage,
         "findings": findings,
         "codes": value(&book.codes)?,
+        "readings": value(&book.readings)?,
         "skipped": value(&book.skipped)?,
         "externals": value(&book.externals)?,
         "index": index,
