@@ -9,10 +9,12 @@ mod codesys_export;
 mod codesys_text;
 mod four_diac;
 mod keyword;
+mod logi_cad;
 pub(super) mod plain;
 mod plcopen;
 mod plcopen_declaration;
 mod siemens;
+mod simatic_ax;
 mod twincat;
 mod xhtml;
 mod xml_tables;
@@ -34,9 +36,10 @@ pub static ALL: &[&dyn Format] = &[
     &codesys2::Codesys2,
     &four_diac::FourDiac,
     &siemens::Siemens,
+    &simatic_ax::SimaticAx,
     &automation_studio::AutomationStudio,
     &codesys_text::CodesysText,
-    &plain::LogiCad,
+    &logi_cad::LogiCad,
     &plain::PlainText,
 ];
 

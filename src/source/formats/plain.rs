@@ -1,8 +1,7 @@
 //! Structured Text as a plain text file: one object, whose declaration is the whole text.
 
 use super::keyword::{skip_trivia, word_at};
-use super::{Claim, Format, Input, Setting, Unwrapped};
-use crate::source::paths;
+use super::{Claim, Format, Input, Unwrapped};
 use crate::text::{Fragment, Object, ObjectKind, Span, Vendor};
 
 /// Plain Structured Text.
@@ -23,37 +22,13 @@ impl Format for PlainText {
     }
 
     fn unwrap(&self, input: &Input<'_>) -> Unwrapped {
-        let vendor = if input.setting == Setting::SimaticAx { Vendor::SimaticAx } else { Vendor::Standard };
-        Unwrapped { objects: vec![whole_text(input)], vendor, ..Unwrapped::default() }
+        Unwrapped { objects: vec![whole_text(input)], vendor: Vendor::Standard, ..Unwrapped::default() }
     }
 }
 
 /// Whether the text is `SFC name … GOTO guard :: step -> step; … END_SFC`: charts that research tools hand to each other.
 pub(in crate::source) fn is_guarded_chart(text: &str) -> bool {
     word_at(text, skip_trivia(text, 0)).eq_ignore_ascii_case("SFC") && text.trim_end().ends_with("END_SFC")
-}
-
-/// Structured Text of logi.CAD 3 and Neuron Power Engineer.
-#[derive(Debug)]
-pub(super) struct LogiCad;
-
-impl Format for LogiCad {
-    fn name(&self) -> &'static str {
-        "logi.CAD 3"
-    }
-
-    fn extensions(&self) -> &'static [&'static str] {
-        &["iecst", "stu"]
-    }
-
-    fn claims(&self, input: &Input<'_>) -> Claim {
-        let is_text = paths::extension(input.path) == "iecst" || !input.head().trim_start().starts_with('<');
-        if is_text { Claim::Likely } else { Claim::No }
-    }
-
-    fn unwrap(&self, input: &Input<'_>) -> Unwrapped {
-        Unwrapped { objects: vec![whole_text(input)], vendor: Vendor::LogiCad, ..Unwrapped::default() }
-    }
 }
 
 /// The whole of `input` as one object.
