@@ -3,7 +3,7 @@
 use super::{Lowering, comments};
 use crate::library::{Comment, Excerpt, FragmentId, Item, ItemBody, ItemId, ItemKind, Placement};
 use crate::syntax::ast::{Declaration, SourceFile, VarSection};
-use crate::syntax::{Entry, Tree};
+use crate::syntax::{self, Entry, Tree};
 use crate::text::{Body, Fragment, Object, ObjectKind, Place, Span};
 
 impl Lowering<'_> {
@@ -147,7 +147,13 @@ impl Lowering<'_> {
     }
 
     fn st_body(&mut self, fragment: &Fragment, object: &Object, own: &mut Vec<Comment>) -> ItemBody {
+        let told = self.findings.len();
         let source = self.parse(fragment, Entry::Body, object);
+        if object.kind == ObjectKind::Transition {
+            // A transition may be a bare condition.
+            let bare = self.findings.split_off(told);
+            self.findings.extend(bare.into_iter().filter(|one| one.code != &syntax::codes::MISSING_SEMICOLON));
+        }
         if let Some(tree) = self.tree(source) {
             own.extend(comments::after(&tree, source, 0, Placement::FirstInBody));
         }

@@ -50,7 +50,13 @@ impl Lowering<'_> {
         let header = pou.header_span();
         item.declaration = Some(Excerpt { fragment, span: declaration(header, pou.var_sections()) });
         item.body = body(tree, fragment, pou.body());
+        let members = pou.methods().map(|member| member.node());
+        let members = members.chain(pou.properties().map(|member| member.node()));
+        let members = members.chain(pou.actions().map(|member| member.node()));
+        let members = members.chain(pou.transitions().map(|member| member.node()));
+        let starts: Vec<u32> = members.map(|node| node.first_token()).collect();
         item.comments = pou_comments(tree, fragment, pou.node(), header, pou.var_sections().collect());
+        item.comments.retain_mut(|comment| leave_to_members(tree, comment, &starts));
         let id = self.push(item);
         pou.methods().for_each(|method| _ = self.pou(tree, fragment, method, Some(id)));
         pou.properties().for_each(|property| _ = self.property(tree, fragment, property, Some(id)));
@@ -203,6 +209,36 @@ pub(super) fn body(tree: &Tree, fragment: FragmentId, body: Option<Body<'_>>) ->
     let start = leading.map_or(body.span().start, |token| token.span().start);
     let excerpt = Excerpt { fragment, span: Span::new(start, body.span().end) };
     if body.instructions().is_some() { ItemBody::Il(excerpt) } else { ItemBody::St(excerpt) }
+}
+
+/// Takes from a comment below a header or a section what stands right above a member, which it documents; whether
+/// anything is left.
+fn leave_to_members(tree: &Tree, comment: &mut Comment, starts: &[u32]) -> bool {
+    let below =
+        matches!(comment.placement, Placement::BelowHeader | Placement::BetweenSections | Placement::AfterSections);
+    let start_of = |index: &u32| tree.token(*index).map(|token| token.span().start);
+    let last = comment.spans.last().map_or(0, |span| span.end);
+    let next = starts.iter().filter_map(start_of).filter(|start| *start >= last).min();
+    let between = |from: u32, to: u32| tree.text().get(from as usize..to as usize).unwrap_or("x");
+    let Some(mut next) = next.filter(|next| below && is_bare(between(last, *next))) else { return true };
+    while let Some(span) = comment.spans.last().filter(|span| !has_gap(between(span.end, next))) {
+        next = span.start;
+        comment.spans.pop();
+    }
+    !comment.spans.is_empty()
+}
+
+/// Whether there are only blanks and pragmas.
+fn is_bare(text: &str) -> bool {
+    let mut parts = text.split('{');
+    let first = parts.next().unwrap_or_default();
+    first.trim().is_empty() && parts.all(|part| part.split_once('}').is_some_and(|(_, rest)| rest.trim().is_empty()))
+}
+
+/// Whether a line of `text`, which begins and ends inside of lines, is empty.
+fn has_gap(text: &str) -> bool {
+    let lines: Vec<&str> = text.split('\n').collect();
+    lines.get(1..lines.len().saturating_sub(1)).is_some_and(|inner| inner.iter().any(|line| line.trim().is_empty()))
 }
 
 /// The comments of whatever has a header and sections.

@@ -22,19 +22,23 @@ pub(super) fn plain(node: Node<'_>) -> String {
     out
 }
 
-const fn section(kind: SectionKind) -> Section {
-    match kind {
-        SectionKind::Local | SectionKind::Constants => Section::Var,
-        SectionKind::Input | SectionKind::Generic => Section::Input,
-        SectionKind::Output => Section::Output,
-        SectionKind::InOut => Section::InOut,
-        SectionKind::Temp => Section::Temp,
-        SectionKind::Static => Section::Stat,
-        SectionKind::Instance => Section::Inst,
-        SectionKind::External => Section::External,
-        SectionKind::Global => Section::Global,
-        SectionKind::Config => Section::Config,
-        SectionKind::Access => Section::AccessPath,
+impl Section {
+    /// The section that variables of a `VAR…` block of this kind stand in.
+    #[must_use]
+    pub const fn of(kind: SectionKind) -> Self {
+        match kind {
+            SectionKind::Local | SectionKind::Constants => Self::Var,
+            SectionKind::Input | SectionKind::Generic => Self::Input,
+            SectionKind::Output => Self::Output,
+            SectionKind::InOut => Self::InOut,
+            SectionKind::Temp => Self::Temp,
+            SectionKind::Static => Self::Stat,
+            SectionKind::Instance => Self::Inst,
+            SectionKind::External => Self::External,
+            SectionKind::Global => Self::Global,
+            SectionKind::Config => Self::Config,
+            SectionKind::Access => Self::AccessPath,
+        }
     }
 }
 
@@ -44,7 +48,7 @@ impl Lowering<'_> {
         let mut variables = Vec::new();
         for declaration in from.variables() {
             let first = variables.len();
-            self.declaration(fragment, declaration, section(from.kind()), "", &mut variables);
+            self.declaration(fragment, declaration, Section::of(from.kind()), "", &mut variables);
             for variable in &mut variables[first..] {
                 variable.constant = from.is_constant();
                 variable.retain = from.has(Qualifier::Retain);

@@ -283,7 +283,12 @@ impl<'c> World<'c> {
     pub(super) fn declared(&self, id: ItemId) -> Vec<Decl<'c>> {
         let mut all = Vec::new();
         for section in self.sections(id).into_iter().filter(|section| !self.is_excluded(section.node())) {
-            let kind = section_of(section.kind(), self.item(id).kind);
+            let kind = match section.kind() {
+                SectionKind::Local | SectionKind::Constants if self.item(id).kind == ItemKind::GlobalVariables => {
+                    Section::Global
+                }
+                kind => Section::of(kind),
+            };
             // An input that the body may not write is a variable all the same.
             let parameter = matches!(kind, Section::Input | Section::InOut | Section::Output);
             self.declarations(section.variables(), kind, section.is_constant() && !parameter, &mut all);
@@ -379,22 +384,5 @@ fn collect<'c>(node: Node<'c>, excerpt: Excerpt, with_blocks: bool, out: &mut Ve
             None if with_blocks || !is_declaration(child.kind()) => collect(child, excerpt, with_blocks, out),
             None => {}
         }
-    }
-}
-
-const fn section_of(kind: SectionKind, owner: ItemKind) -> Section {
-    match kind {
-        SectionKind::Local | SectionKind::Constants if matches!(owner, ItemKind::GlobalVariables) => Section::Global,
-        SectionKind::Local | SectionKind::Constants => Section::Var,
-        SectionKind::Input | SectionKind::Generic => Section::Input,
-        SectionKind::Output => Section::Output,
-        SectionKind::InOut => Section::InOut,
-        SectionKind::Temp => Section::Temp,
-        SectionKind::Static => Section::Stat,
-        SectionKind::Instance => Section::Inst,
-        SectionKind::External => Section::External,
-        SectionKind::Global => Section::Global,
-        SectionKind::Config => Section::Config,
-        SectionKind::Access => Section::AccessPath,
     }
 }
