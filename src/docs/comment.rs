@@ -191,9 +191,15 @@ fn split_code<'a>(text: &str, group: &'a [Token]) -> Vec<&'a [Token]> {
     }
     let lead = if has_code(&group[..lead]) { lead } else { 0 };
     let body_end = group.len() - tail;
-    let announced = group[..body_end].last().is_some_and(|token| token.inner.of(text).trim_end().ends_with(':'));
+    let announced = group[..body_end].last().is_some_and(|token| announces_code(token.inner.of(text).trim()));
     let tail = if has_code(&group[body_end..]) && !announced { body_end } else { group.len() };
     [&group[..lead], &group[lead..tail], &group[tail..]].into_iter().filter(|part| !part.is_empty()).collect()
+}
+
+/// Whether code below `line` is meant to be read.
+fn announces_code(line: &str) -> bool {
+    const TAGS: [&str; 5] = ["@example", "@code", "\\example", "\\code", "```"];
+    line.ends_with(':') || TAGS.iter().any(|tag| line.starts_with(tag))
 }
 
 /// The bytes of the line break at `at`; 0 if there is none. Some files hold `\r\r\n`, which is one.

@@ -12,6 +12,7 @@
 //! their group.
 
 use super::comment::{Chunk, Marker};
+use super::conventions::oscat;
 use super::judge::is_heading;
 use super::mapped::Mapped;
 use super::model::Reason;
@@ -91,8 +92,10 @@ fn misplaced(candidate: &Candidate, kind: ItemKind, options: &Options) -> Option
     let told = text.contains('\n') || text.trim_end().ends_with('.');
     let stated = chunk.placement == Placement::FirstInBody
         || chunk.before_statement && matches!(chunk.placement, Placement::BelowHeader | Placement::AfterSections);
+    // A block that names a version and a programmer speaks of no statement, however near one stands.
+    let apart = chunk.set_apart && told || oscat::is_used(text);
     match chunk.placement {
-        _ if stated && is_code_block && !(by_body || chunk.set_apart && told) => Some(Reason::Statement),
+        _ if stated && is_code_block && !(by_body || apart) => Some(Reason::Statement),
         // One line right above a section speaks of the section.
         Placement::BetweenSections if !told || !(chunk.set_apart || text.contains('\n')) => Some(Reason::Heading),
         _ => None,

@@ -8,7 +8,7 @@ mod draft;
 pub(super) mod file_header;
 mod javadoc;
 mod neuron;
-mod oscat;
+pub(super) mod oscat;
 mod rst;
 mod tag_names;
 mod xml;

@@ -8,7 +8,7 @@ use crate::docs::mapped::{Mapped, trim};
 const KEYS: [&str; 6] = ["version", "programmer", "tested by", "testet by", "author", "date"];
 
 /// Whether `text` opens with such a block.
-pub(super) fn is_used(text: &str) -> bool {
+pub(in crate::docs) fn is_used(text: &str) -> bool {
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let versioned = |line: &str| key(line).is_some_and(|(key, rest)| key == "version" && has_digit(rest));
     let first = lines.next().is_some_and(versioned);

@@ -3,7 +3,7 @@
 //! A history opens with a heading (`revision history`, `Change log:`; OSCAT spells it in several
 //! ways) or with a line that names a version and a date; it reaches to the end of the comment, or
 //! to the next line that opens a tag. A comment with no heading is a history if most of its lines
-//! begin with a version or a date.
+//! begin with a version or a date; so is its last paragraph if all of that paragraph's do.
 
 use crate::docs::mapped::Mapped;
 
@@ -33,7 +33,7 @@ pub(super) fn split(text: &Mapped) -> (Option<Mapped>, Option<Mapped>) {
     let lines = text.lines();
     let line = |i: usize| &text.as_str()[lines[i].clone()];
     let opens = (0..lines.len()).find(|i| is_heading(line(*i)) && (*i + 1 == lines.len() || is_dated(text, *i + 1)));
-    let Some(start) = opens.or_else(|| mostly_entries(text).then_some(0)) else {
+    let Some(start) = opens.or_else(|| mostly_entries(text).then_some(0)).or_else(|| last_entries(text)) else {
         return ((!text.is_blank()).then(|| text.clone()), None);
     };
     let end = (start + 1..lines.len()).find(|i| line(*i).trim_start().starts_with('@')).unwrap_or(lines.len());
@@ -76,9 +76,21 @@ fn mostly_entries(text: &Mapped) -> bool {
     lines.first().is_some_and(|line| is_entry(line)) && entries >= 2 && entries * 2 > lines.len()
 }
 
+/// Where the last paragraph begins, if it is two entries or more and nothing else.
+fn last_entries(text: &Mapped) -> Option<usize> {
+    let lines = text.lines();
+    let line = |i: usize| text.as_str()[lines[i].clone()].trim();
+    let end = (0..lines.len()).rev().find(|i| !line(*i).is_empty())?;
+    let start = (0..=end).rev().take_while(|i| !line(*i).is_empty()).last()?;
+    (start < end && (start..=end).all(|i| is_entry(line(i)))).then_some(start)
+}
+
 /// Whether a line begins as `V1.2`, `1.0.3 2020-…`, `2020-05-01` or `01.05.2020` does.
 fn is_entry(line: &str) -> bool {
-    let word = line.split_whitespace().next().unwrap_or("").trim_matches([':', '-', '|', '[', ']', '(', ')']);
+    let words = line.split_whitespace().map(|word| word.trim_matches([':', '-', '|', '[', ']', '(', ')']));
+    let named =
+        |word: &&str| ["version", "rev", "rev.", "ver", "ver."].iter().any(|name| word.eq_ignore_ascii_case(name));
+    let word = words.skip_while(named).next().unwrap_or("");
     is_date(word)
         || is_version(word) && line.split_whitespace().any(|word| is_date(word.trim_matches([',', '(', ')', ':'])))
 }
@@ -118,6 +130,15 @@ mod tests {
         let (prose, history) = cut("V1.0 2020-01-01 first\nV1.1 2021-02-03 second");
         assert_eq!(prose, None);
         assert!(history.is_some());
+    }
+
+    #[test]
+    fn entries_at_the_end_need_no_heading() {
+        let (prose, history) = cut("Turns.\n\nVersion 1.0 2020-01-01 first\nVersion 1.1 2021-02-03 second");
+        assert_eq!(prose.as_deref(), Some("Turns."));
+        assert_eq!(history.as_deref(), Some("Version 1.0 2020-01-01 first\nVersion 1.1 2021-02-03 second"));
+        let text = "Made by A.\n\nVersion 1.0 2020-01-01";
+        assert_eq!(cut(text), (Some(text.to_owned()), None));
     }
 
     #[test]
