@@ -16,6 +16,13 @@ fn each_if_is_found_once_and_both_branches_are_read() {
 }
 
 #[test]
+fn a_definition_is_told() {
+    let text = "// Moves.\nPROGRAM P\n{define sim}\nEND_PROGRAM\n";
+    let told = "a.st:3:1 a definition for conditional pragmas is stepped over";
+    assert_eq!(in_text("conditional-pragma", text), [told]);
+}
+
+#[test]
 fn an_attribute_is_none() {
     let text = "{attribute 'if'}\n// Moves.\nFUNCTION_BLOCK FB_Axis\nEND_FUNCTION_BLOCK\n";
     assert_eq!(in_text("conditional-pragma", text), [""; 0]);
