@@ -28,3 +28,4 @@ mod tidy;
 mod totals;
 mod translate;
 mod verify;
+mod zoo;
