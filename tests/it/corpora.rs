@@ -16,11 +16,13 @@ use rungbook::syntax::{Node, NodeKind, codes};
 use crate::support::{book, settings};
 
 /// Keyword and the kinds that it may be.
-const KEYWORDS: [(&str, &[&str]); 6] = [
+const KEYWORDS: [(&str, &[&str]); 8] = [
     ("FUNCTION_BLOCK", &["function-block"]),
     ("FUNCTION", &["function"]),
     ("PROGRAM", &["program"]),
     ("INTERFACE", &["interface"]),
+    ("CLASS", &["class"]),
+    ("ORGANIZATION_BLOCK", &["program"]),
     ("METHOD", &["method"]),
     ("PROPERTY", &["property"]),
 ];
@@ -77,7 +79,7 @@ fn bare(text: &str) -> String {
 /// What the declarations of a file declare: kind and name in lower case.
 fn headers(text: &str) -> Vec<(&'static str, String)> {
     let mut found = Vec::new();
-    for line in bare(text).lines() {
+    for line in bare(text.trim_start_matches('\u{feff}')).lines() {
         let words: Vec<&str> = line.split_whitespace().collect();
         let Some(first) = words.first() else { continue };
         // `PROGRAM instance WITH task : type` in a configuration declares an instance, no program.
@@ -89,8 +91,9 @@ fn headers(text: &str) -> Vec<(&'static str, String)> {
         };
         let name = words[1..].iter().find(|word| !MODIFIERS.contains(&word.to_uppercase().as_str()));
         let Some(name) = name else { continue };
-        let name = name.trim_matches('"');
-        let name: String = name.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+        let quoted = name.starts_with('"').then(|| line.split('"').nth(1)).flatten();
+        let plain = || name.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+        let name: String = quoted.map_or_else(plain, str::to_owned);
         if !name.is_empty() {
             found.push((*keyword, name.to_lowercase()));
         }
@@ -107,9 +110,30 @@ fn declarations(path: &str, text: &str) -> Vec<String> {
                 text.split("<Declaration>").skip(1).map(|part| part.split("</Declaration>").next().unwrap_or(""));
             parts.map(|part| part.replace("<![CDATA[", "").replace("]]>", "")).collect()
         }
-        "st" | "iecst" => vec![text.to_owned()],
+        "st" | "iecst" | "pou" | "itf" | "fun" | "scl" => vec![text.to_owned()],
         _ => Vec::new(),
     }
+}
+
+/// What the elements of a file of PLCopen XML declare.
+fn elements(path: &str, text: &str) -> Vec<(&'static str, String)> {
+    if !path.to_lowercase().ends_with(".xml") || !text.contains("plcopen.org/xml/tc6") {
+        return Vec::new();
+    }
+    let attribute = |tag: &str, name: &str| {
+        let rest = tag.split_once(&format!(" {name}=\""))?.1;
+        Some(rest.split('"').next().unwrap_or("").to_lowercase())
+    };
+    let declared = text.split("<pou ").skip(1).filter_map(|piece| {
+        let tag = format!(" {}", piece.split('>').next().unwrap_or(""));
+        let keyword = match attribute(&tag, "pouType")?.as_str() {
+            "functionblock" => "FUNCTION_BLOCK",
+            "function" => "FUNCTION",
+            _ => "PROGRAM",
+        };
+        Some((keyword, attribute(&tag, "name")?))
+    });
+    declared.collect()
 }
 
 fn files(folder: &Path, root: &Path, out: &mut Vec<(String, String)>) {
@@ -148,7 +172,8 @@ fn no_header_is_lost() {
         all.sort();
         let (mut found, mut lost) = (0, Vec::new());
         for (path, text) in &all {
-            for (keyword, name) in declarations(path, text).iter().flat_map(|text| headers(text)) {
+            let texts = declarations(path, text);
+            for (keyword, name) in texts.iter().flat_map(|text| headers(text)).chain(elements(path, text)) {
                 found += 1;
                 let kinds = KEYWORDS.iter().find(|(word, _)| *word == keyword).expect("a keyword").1;
                 let file = path.to_lowercase();
