@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 use super::{Project, artefact};
 use crate::config::Settings;
 use crate::library::ItemId;
-use crate::logic::certificate::Certificate;
 use crate::logic::system::System;
 use crate::machine::elaborate::{self, elaborate};
 use crate::machine::program::{Program, SlotId};
@@ -280,12 +279,6 @@ fn judge(
     cancel: &Cancel,
     listener: &(dyn Fn(Progress) + Sync),
 ) {
-    if ready.automaton.may_be_empty {
-        made.verdict = Verdict::Verified(Certificate { k: 1, ..Certificate::default() });
-        made.engine = "trivial";
-        confirm_certificate(ready, settings, made);
-        return;
-    }
     let decided = decide(&ready.product, &settings.verify.options, cancel, listener);
     made.engine = decided.engine;
     match decided.decision {
