@@ -55,6 +55,7 @@ pub(super) enum Step {
 struct Judged<'a> {
     subject: &'a Subject<'a>,
     values: Values<'a>,
+    fault: bool,
 }
 
 impl Judged<'_> {
@@ -62,7 +63,9 @@ impl Judged<'_> {
         let columns = self.subject.table.columns.iter().zip(&self.subject.table.cells[row]);
         columns.filter(|(column, _)| column.assumption == assumption).all(|(column, cell)| {
             let own = self.values.history[0][column.variable];
-            cell.holds(own, first, &self.values)
+            let set = |index: usize| self.subject.block.variables[index].role == Use::Input;
+            let vague = self.fault && assumption && !cell.reads_only(column.variable, &set);
+            vague || cell.holds(own, first, &self.values)
         })
     }
 }
@@ -126,7 +129,7 @@ impl Subject<'_> {
         let mut history = vec![now.collect::<Vec<i64>>()];
         history.extend(state.history.iter().cloned());
         let values = Values { kind: self.block.kind, history: &history, globals: &state.globals };
-        let outcome = self.table.tree.play(&state.words, &Judged { subject: self, values });
+        let outcome = self.table.tree.play(&state.words, &Judged { subject: self, values, fault });
         match outcome {
             Outcome::Uncovered => Step::Over,
             _ if fault => Step::Lost,

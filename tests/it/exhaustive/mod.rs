@@ -16,7 +16,7 @@ use std::time::Duration;
 use rungbook::pipeline::Project;
 use rungbook::pipeline::verify::{self, Verified};
 use rungbook::prove::engine::Cancel;
-use rungbook::prove::verdict::{Run, Verdict};
+use rungbook::prove::verdict::{Loss, Run, Verdict};
 
 use self::blocks::Block;
 use self::explore::{Explored, Step, Subject};
@@ -32,6 +32,8 @@ const TABLES: usize = 4;
 struct Count {
     verified: AtomicU64,
     violated: AtomicU64,
+    kept: AtomicU64,
+    endless: AtomicU64,
     undecided: AtomicU64,
     large: AtomicU64,
     states: AtomicU64,
@@ -44,15 +46,21 @@ fn add(count: &AtomicU64, more: u64) {
 /// A random block with some random tables: all that they mean, and the text.
 struct Batch {
     block: Block,
-    tables: Vec<Table>,
+    /// Each with whether strict conformance is asked for.
+    tables: Vec<(Table, bool)>,
     text: String,
 }
 
 fn batch(seed: u64) -> Batch {
     let random = &mut Random::new(seed);
     let block = Block::random(random);
-    let tables: Vec<Table> = (0..TABLES).map(|_| Table::random(random, &block)).collect();
-    let texts = tables.iter().enumerate().map(|(index, table)| table.text(&format!("T{index}"), &block, false));
+    let mut table = || {
+        let strict = random.once_in(2);
+        (Table::random(random, &block, strict), strict)
+    };
+    let tables: Vec<(Table, bool)> = (0..TABLES).map(|_| table()).collect();
+    let named = tables.iter().enumerate();
+    let texts = named.map(|(index, (table, strict))| table.text(&format!("T{index}"), &block, *strict));
     let text = format!("(*\n{}*)\n{}", texts.collect::<Vec<_>>().join("\n"), block.text("B"));
     Batch { block, tables, text }
 }
@@ -61,16 +69,20 @@ fn compare(seed: u64, count: &Count) {
     let Batch { block, tables, text } = batch(seed);
     let project = super::support::project(&[("b.st", &text)], "");
     assert_eq!(project.tables.len(), TABLES, "seed {seed}\n{text}");
-    for (index, table) in tables.iter().enumerate() {
+    for (index, (table, strict)) in tables.iter().enumerate() {
         let about = format!("seed {seed}, table T{index}\n{text}");
-        one(&project, index, &block, table, count, &about);
+        one(&project, index, &block, (table, *strict), count, &about);
     }
 }
 
-fn one(project: &Project, index: usize, block: &Block, table: &Table, count: &Count, about: &str) {
+fn one(project: &Project, index: usize, block: &Block, (table, strict): (&Table, bool), count: &Count, about: &str) {
     let mut settings = super::support::settings("");
     settings.verify.options.timeout = Duration::from_secs(60);
     let verified = verify::verify(project, &settings, index, &Cancel::default(), &|_, _| ());
+    if strict && !table.tree.ends() {
+        assert!(matches!(verified.verdict, Verdict::Unusable(_)), "{:?}: {about}", verified.verdict);
+        return add(&count.endless, 1);
+    }
     let program = verified.program.clone().unwrap_or_else(|| panic!("{:?}: {about}", verified.verdict));
     assert_eq!(verified.internal, None, "{about}");
     let subject = Subject { program: &program, block, table };
@@ -79,12 +91,20 @@ fn one(project: &Project, index: usize, block: &Block, table: &Table, count: &Co
     match &verified.verdict {
         Verdict::Verified(_) => {
             assert_eq!(explored.shortest, None, "verified, but violated: {about}");
+            assert!(!(strict && explored.kept), "verified, but kept in the table: {about}");
             add(&count.verified, 1);
         }
-        Verdict::Violated(run) => {
-            loses(&subject, &explored, &verified, run, about);
-            add(&count.violated, 1);
-        }
+        Verdict::Violated(run) => match run.loss {
+            Loss::NeverEnds(from) => {
+                assert!(strict && (explored.kept || explored.shortest.is_some()), "left in the end: {about}");
+                goes_on(&subject, &verified, run, from, about);
+                add(&count.kept, 1);
+            }
+            _ => {
+                loses(&subject, &explored, &verified, run, about);
+                add(&count.violated, 1);
+            }
+        },
         Verdict::Bounded(cycles) => {
             let fits = explored.shortest.is_none_or(|shortest| shortest as u64 > *cycles);
             assert!(fits, "{cycles} cycles, but {explored:?}: {about}");
@@ -102,11 +122,7 @@ fn loses(subject: &Subject<'_>, explored: &Explored, verified: &Verified, run: &
         "a run of {} cycles, and the shortest has {shortest}: {about}",
         run.inputs.len()
     );
-    let globals = |state: &explore::State| {
-        let numbers = state.globals().iter().zip(&run.globals);
-        numbers.clone().count() == run.globals.len() && numbers.clone().all(|(number, bits)| *number as u64 == *bits)
-    };
-    let mut state = subject.begin().into_iter().find(globals).unwrap_or_else(|| panic!("{run:?}: {about}"));
+    let mut state = beginning(subject, run, about);
     for (cycle, inputs) in run.inputs.iter().enumerate() {
         let set: Vec<_> = verified.input_slots.iter().copied().zip(inputs.iter().copied()).collect();
         match subject.step(&state, &set) {
@@ -116,6 +132,41 @@ fn loses(subject: &Subject<'_>, explored: &Explored, verified: &Verified, run: &
         }
     }
     panic!("{run:?} does not lose: {about}");
+}
+
+/// The first state with the run's global variables.
+fn beginning(subject: &Subject<'_>, run: &Run, about: &str) -> explore::State {
+    let globals = |state: &explore::State| state.globals().iter().map(|number| *number as u64).eq(run.globals.clone());
+    subject.begin().into_iter().find(globals).unwrap_or_else(|| panic!("{run:?}: {about}"))
+}
+
+/// The run can be repeated from the cycle `from` on until nothing new comes, and the environment is fair in what is repeated.
+fn goes_on(subject: &Subject<'_>, verified: &Verified, run: &Run, from: usize, about: &str) {
+    let mut state = beginning(subject, run, about);
+    let mut go = |inputs: &[u64]| {
+        let set: Vec<_> = verified.input_slots.iter().copied().zip(inputs.iter().copied()).collect();
+        let Step::Open(next, fair) = subject.step(&state, &set) else { panic!("{run:?} ends: {about}") };
+        state = *next;
+        (subject.key(&state), fair)
+    };
+    run.inputs[..from].iter().for_each(|inputs| drop(go(inputs)));
+    let mut rounds = Vec::new();
+    for _ in 0..10_000 {
+        let mut fair = 0;
+        let mut key = None;
+        for inputs in &run.inputs[from..] {
+            let (after, more) = go(inputs);
+            (key, fair) = (Some(after), fair | more);
+        }
+        let seen = rounds.iter().position(|(known, _)| *known == key);
+        rounds.push((key, fair));
+        if let Some(at) = seen {
+            let fair = rounds[at + 1..].iter().fold(0, |all, (_, fair)| all | fair);
+            assert_eq!(fair, subject.table.tree.units(), "{run:?} is not fair: {about}");
+            return;
+        }
+    }
+    panic!("{run:?} is not repeated: {about}");
 }
 
 /// How many pairs: 200, or what `RUNGBOOK_CASES` says.
@@ -146,13 +197,14 @@ fn verdicts_are_those_of_exhaustive_exploration() {
             scope.spawn(work);
         }
     });
-    let [verified, violated, undecided, large, states] =
-        [&count.verified, &count.violated, &count.undecided, &count.large, &count.states]
+    let [verified, violated, kept, endless, undecided, large, states] =
+        [&count.verified, &count.violated, &count.kept, &count.endless, &count.undecided, &count.large, &count.states]
             .map(|count| count.load(Ordering::Relaxed));
     println!(
-        "{} pairs: {verified} verified, {violated} violated, {undecided} undecided, {large} too large; {states} states",
+        "{} pairs: {verified} verified, {violated} violated, {kept} kept for ever, {endless} without an end, {undecided} undecided, {large} too large; {states} states",
         batches * TABLES as u64
     );
     assert!(verified > pairs / 10 && violated > pairs / 10, "{verified} verified, {violated} violated");
+    assert!(kept > pairs / 100, "{kept} are kept for ever");
     assert!(large < pairs / 3, "{large} are too large");
 }

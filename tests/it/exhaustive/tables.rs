@@ -138,8 +138,9 @@ impl Cell {
 }
 
 impl Table {
-    pub(super) fn random(random: &mut Random, block: &Block) -> Self {
-        let mut writer = Writer { random, block, globals: Vec::new() };
+    /// A random table; one that is meant strictly has seldom a row for ever, and asks more seldom for inputs.
+    pub(super) fn random(random: &mut Random, block: &Block, strict: bool) -> Self {
+        let mut writer = Writer { random, block, strict, globals: Vec::new() };
         let mut table = Self { tree: Tree::default(), columns: Vec::new(), cells: Vec::new(), globals: Vec::new() };
         let rows = 1 + writer.random.below(4);
         writer.tree(&mut table.tree, rows);
@@ -234,14 +235,25 @@ impl Table {
 struct Writer<'r, 'b> {
     random: &'r mut Random,
     block: &'b Block,
+    strict: bool,
     globals: Vec<Global>,
 }
 
 impl Writer<'_, '_> {
     fn tau(&mut self, last: bool) -> Tau {
         let low = self.random.below(3) as u32;
-        let high = if self.random.once_in(3) { None } else { Some(low + self.random.below(3) as u32) };
-        let omega = self.random.once_in(if last { 4 } else { 16 });
+        let high = if self.random.once_in(if self.strict { 2 } else { 3 }) {
+            None
+        } else {
+            Some(low + self.random.below(3) as u32)
+        };
+        let omega = self.random.once_in(if self.strict {
+            24
+        } else if last {
+            4
+        } else {
+            16
+        });
         Tau { low, high, omega, flag: !omega && self.random.once_in(4) }
     }
 
@@ -281,7 +293,7 @@ impl Writer<'_, '_> {
         let boolean = self.block.variables[column.variable].boolean;
         let mut operand = self.operand(boolean, column);
         // Assertions that ask little, so that runs get deep into the table.
-        let asks = column.assumption || self.random.once_in(2);
+        let asks = self.random.once_in(if column.assumption && !self.strict { 1 } else { 2 });
         match self.random.below(12) {
             0..=2 => Cell::Any,
             _ if !asks => Cell::Any,
@@ -307,7 +319,7 @@ impl Writer<'_, '_> {
     /// A condition over anything, or a Boolean that equals one.
     fn condition(&mut self, boolean: bool, column: &Column) -> Cell {
         let mut one = || {
-            let of_numbers = self.block.variables.iter().any(|v| !v.boolean && self.may_read(v.role, column));
+            let of_numbers = self.block.variables.iter().any(|v| !v.boolean);
             let left = self.variable(!of_numbers, column);
             let right = self.operand(!of_numbers, column);
             let op = if of_numbers {
@@ -326,16 +338,11 @@ impl Writer<'_, '_> {
         if boolean && self.random.once_in(2) { Cell::Is(exp) } else { Cell::Condition(exp) }
     }
 
-    /// An assumption reads outputs of the same cycle where no cycle can fault.
-    fn may_read(&self, role: Use, column: &Column) -> bool {
-        role == Use::Input || !column.assumption || !self.block.faulty
-    }
-
     /// A variable, now or a while ago; the column's own where there is no other of the type.
     fn variable(&mut self, boolean: bool, column: &Column) -> Exp {
         let fits = |index: &usize| {
             let variable = &self.block.variables[*index];
-            variable.boolean == boolean && (*index == column.variable || self.may_read(variable.role, column))
+            variable.boolean == boolean
         };
         let all: Vec<usize> = (0..self.block.variables.len()).filter(fits).collect();
         let index = if all.is_empty() { column.variable } else { self.random.one(&all) };
@@ -383,5 +390,33 @@ impl Table {
     /// How many cycles it looks back.
     pub(super) fn depth(&self) -> usize {
         self.cells.iter().flatten().map(Cell::depth).max().unwrap_or(0)
+    }
+}
+
+impl Exp {
+    /// Whether all that it reads of this cycle is what `set` says of.
+    fn reads_only(&self, set: &dyn Fn(usize) -> bool) -> bool {
+        match self {
+            Self::Const(..) | Self::Global(_) => true,
+            Self::Var(index, ago) => *ago > 0 || set(*index),
+            Self::Not(one) | Self::Next(one) => one.reads_only(set),
+            Self::Compare(_, one, other) | Self::Both(one, other) | Self::Either(one, other) => {
+                one.reads_only(set) && other.reads_only(set)
+            }
+        }
+    }
+}
+
+impl Cell {
+    /// The same of a cell of a column over the variable `own`.
+    pub(super) fn reads_only(&self, own: usize, set: &dyn Fn(usize) -> bool) -> bool {
+        match self {
+            Self::Any => true,
+            Self::Between(..) => set(own),
+            Self::Is(exp) | Self::Compare(_, exp) => set(own) && exp.reads_only(set),
+            Self::Condition(exp) => exp.reads_only(set),
+            Self::All(cells) => cells.iter().all(|cell| cell.reads_only(own, set)),
+            Self::Trigger(cell) => cell.reads_only(own, set),
+        }
     }
 }

@@ -204,9 +204,35 @@ impl Tree {
         rest.iter().enumerate().filter_map(unit).collect()
     }
 
-    /// Whether some word never ends.
-    pub(super) fn is_endless(&self) -> bool {
-        self.units() != 0 || self.rows.iter().chain(self.blocks.iter().map(|(tau, _)| tau)).any(|tau| tau.omega)
+    /// Whether some word ends.
+    pub(super) fn ends(&self) -> bool {
+        self.top.iter().all(|item| self.can_end(*item))
+    }
+
+    fn can_end(&self, item: Item) -> bool {
+        if self.may_end(item) {
+            return true;
+        }
+        match item {
+            Item::Row(row, _) => !self.rows[row].omega,
+            Item::Block(block, _) | Item::Begun(block, _) => {
+                let (tau, body) = &self.blocks[block];
+                !tau.omega && body.iter().all(|item| self.can_end(*item))
+            }
+        }
+    }
+
+    /// Whether what has been done of `rest` is in something for ever, within the unbounded repetition `unit`.
+    fn is_endless(&self, rest: &[Item], unit: u32) -> bool {
+        let inner = rest.iter().take_while(|item| match **item {
+            Item::Row(row, _) => 1 << row != unit,
+            Item::Block(block, _) | Item::Begun(block, _) => 1 << (self.rows.len() + block) != unit,
+        });
+        inner.into_iter().any(|item| match *item {
+            Item::Row(row, count) => count > 0 && self.rows[row].omega,
+            Item::Block(block, count) => count > 0 && self.blocks[block].0.omega,
+            Item::Begun(..) => false,
+        })
     }
 
     /// Plays a cycle.
@@ -222,10 +248,10 @@ impl Tree {
                 }
                 covered = true;
                 for (at, unit) in &units {
-                    if one.at <= *at {
-                        stay |= unit;
-                    } else {
+                    if one.at > *at {
                         leave |= unit;
+                    } else if !self.is_endless(&one.rest, *unit) {
+                        stay |= unit;
                     }
                 }
                 if letter.outputs(one.row, one.first) {
