@@ -158,7 +158,7 @@ pub(crate) struct VerifyArgs {
     /// How many tables at a time [default: one for each core]
     #[arg(short, long, value_name = "N")]
     pub(crate) jobs: Option<usize>,
-    /// Strict conformance, which this version does not decide: such tables are `unsupported`
+    /// Strict conformance for every table: the end is reached, unless the environment stays for ever where it may
     #[arg(long)]
     pub(crate) strict: bool,
     /// Cycle time of tables that state none, such as 4ms

@@ -31,7 +31,7 @@ pub const TEMPLATE: &str = r##"# rungbook.toml: how the manual of this tree is m
 # timeout = 60           # seconds for one table
 # memory = 4096          # MiB for one table
 # jobs = 0               # tables at a time; 0 is one for each core
-# strict = false         # strict conformance for every table: this version calls such tables unsupported
+# strict = false         # strict conformance for every table: its end is reached
 # loop-limit = 1000      # how often a loop without constant bounds may be done
 # stubs = { "FB_Vendor" = "arbitrary", "FB_Other" = "stubs/FB_Other.st" }
 

@@ -140,7 +140,15 @@ fn run(project: &Project, table: usize, artefact: &Artefact) -> Result<(), Strin
     let length = artefact.value["cycles"].as_array().map_or(0, Vec::len);
     let cycle = |index: usize| columns.iter().map(|column| column.get(index).copied().unwrap_or(0)).collect();
     let inputs = (0..length).map(cycle).collect();
-    match ready.replay(&Environment { globals, slots: ready.input_slots(), inputs }).end {
+    let environment = Environment { globals, slots: ready.input_slots(), inputs };
+    if artefact.value["end"]["kind"] == "never-ends" {
+        let from = artefact.value["end"]["from"].as_u64().and_then(|from| usize::try_from(from.checked_sub(1)?).ok());
+        let from = from.ok_or("it does not say where it repeats itself")?;
+        return ready
+            .repeats(&environment, from)
+            .map_err(|error| format!("the run does not go on for ever when it is played again: {error}"));
+    }
+    match ready.replay(&environment).end {
         End::Lost(_) | End::Fault(_) => Ok(()),
         other => Err(format!("the run does not violate the table when it is played again: {other:?}")),
     }

@@ -129,7 +129,7 @@ pub fn claim(
         externals: externals.into_iter().collect(),
         cone: cone.into_iter().map(|id| digests.part(id)).collect(),
         cycle_ns: cycle_ns.or(own_cycle),
-        conformance: if table.table.options.strict { "strict" } else { "weak" }.to_owned(),
+        conformance: if table.table.options.strict || project.asked.strict { "strict" } else { "weak" }.to_owned(),
         options,
         semantics: SEMANTICS.to_owned(),
     }

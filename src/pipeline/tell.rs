@@ -156,7 +156,7 @@ impl Teller<'_> {
                 let (file, line) = place.map(|place| self.at(place)).unwrap_or_default();
                 json!({"kind": "fault", "cycle": cycle, "fault": fault_name(*fault), "file": file, "line": line})
             }
-            Loss::NeverEnds => json!({"kind": "never-ends", "cycle": cycle}),
+            Loss::NeverEnds(from) => json!({"kind": "never-ends", "cycle": cycle, "from": from + 1}),
         }
     }
 

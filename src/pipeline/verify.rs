@@ -1,13 +1,12 @@
 //! From a test table to a verdict: bind, elaborate, translate, prove, check again.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::{Project, artefact};
 use crate::config::Settings;
 use crate::library::ItemId;
-use crate::logic::certificate::Certificate;
 use crate::logic::system::System;
 use crate::machine::elaborate::{self, elaborate};
 use crate::machine::program::{Program, SlotId};
@@ -15,9 +14,12 @@ use crate::machine::{interpret, translate};
 use crate::prove::decide::{Choice, Decision, decide};
 use crate::prove::engine::{Cancel, Progress};
 use crate::prove::product::{Parts, Product, product};
+use crate::prove::strict::{repeated_from, strict};
 use crate::prove::verdict::{FailedRow, Loss, Reason, Run, Verdict};
 use crate::recheck::invariant::{self, Rejection, Stop};
+use crate::recheck::lasso;
 use crate::recheck::replay::{End, Environment, Replay, Subject, replay};
+use crate::recheck::strict::extend;
 use crate::semantics::encode::Reals;
 use crate::table::automaton::{Automaton, NoAutomaton};
 use crate::table::bind::{BoundTable, bind};
@@ -109,14 +111,27 @@ pub struct Ready {
     table: Arc<BoundTable>,
     automaton: Automaton,
     product: Product,
+    strict: Option<Strict>,
     loop_limit: u64,
+}
+
+/// What strict conformance adds where words may be of any length; where they are bounded, every run ends, and it is weak
+/// conformance.
+#[derive(Debug)]
+struct Strict {
+    /// What the engines prove.
+    product: Product,
+    /// What certificates are checked against.
+    checked: System,
+    /// The slots that the game depends on.
+    slots: Vec<SlotId>,
 }
 
 impl Ready {
     /// The obligation.
     #[must_use]
-    pub const fn system(&self) -> &System {
-        &self.product.system
+    pub fn system(&self) -> &System {
+        self.strict.as_ref().map_or(&self.product.system, |strict| &strict.checked)
     }
 
     /// The slots that the environment sets.
@@ -135,13 +150,26 @@ impl Ready {
     /// Plays `environment` on the interpreter and the game.
     #[must_use]
     pub fn replay(&self, environment: &Environment) -> Replay {
-        let subject = Subject {
+        replay(&self.subject(), environment)
+    }
+
+    /// Whether the cycles of `environment` from `from` on can be repeated for ever, within the table, by a fair
+    /// environment, and strict conformance is asked for.
+    ///
+    /// # Errors
+    /// Why it is not so.
+    pub fn repeats(&self, environment: &Environment, from: usize) -> Result<(), String> {
+        let strict = self.strict.as_ref().ok_or("a run that never ends violates nothing where conformance is weak")?;
+        lasso::check(&self.subject(), environment, from, &strict.slots).map_err(|rejection| format!("{rejection:?}"))
+    }
+
+    fn subject(&self) -> Subject<'_> {
+        Subject {
             program: &self.program,
             options: interpret::Options { loop_limit: self.loop_limit },
             table: &self.table,
             automaton: &self.automaton,
-        };
-        replay(&subject, environment)
+        }
     }
 }
 
@@ -187,12 +215,15 @@ fn reason(message: impl Into<String>, help: impl Into<String>) -> Reason {
 }
 
 fn prepare(project: &Project, attached: &AttachedTable, cycle_time: u64) -> Result<Ready, Verdict> {
-    if project.asked.strict || attached.table.options.strict {
-        let help = "ask for weak conformance, the default: that no run violates the table";
-        return Err(Verdict::Unsupported(vec![reason("strict conformance is not decided by this version", help)]));
-    }
     let (unit, table) = bound(project, attached)?;
     let automaton = Automaton::build(&attached.table).map_err(|error| no_automaton(error, &attached.table))?;
+    let is_strict = project.asked.strict || attached.table.options.strict;
+    if is_strict && !automaton.ends {
+        let help = "ask for weak conformance, the default, or let the table end";
+        let mut reason = reason("the table never ends, so nothing can conform to it strictly", help);
+        reason.place = Some(attached.table.name_place);
+        return Err(Verdict::Unusable(vec![reason]));
+    }
     let options = elaborate::Options {
         cycle_time,
         stubs: project.asked.stubs.iter().map(|(_, stub)| stub.clone()).collect(),
@@ -211,7 +242,16 @@ fn prepare(project: &Project, attached: &AttachedTable, cycle_time: u64) -> Resu
     let parts =
         Parts { program: &program, translated: &translated, table: &table, automaton: &automaton, reals: Reals::Ieee };
     let product = product(&parts).map_err(Verdict::Unsupported)?;
-    Ok(Ready { program: Arc::new(program), table: Arc::new(table), automaton, product, loop_limit })
+    let strict = (is_strict && !automaton.is_bounded()).then(|| strictly(&product, &translated.begin));
+    Ok(Ready { program: Arc::new(program), table: Arc::new(table), automaton, product, strict, loop_limit })
+}
+
+/// The obligation of strict conformance, once for the engines and once for the second check.
+fn strictly(product: &Product, begin: &[crate::logic::term::Term]) -> Strict {
+    let extended = extend(&product.system, product.game.alive, &product.game.fair);
+    let compared: BTreeSet<_> = extended.compared.iter().map(|index| product.system.states[*index].variable).collect();
+    let slots = (0..).zip(begin).filter(|(_, term)| compared.contains(term)).map(|(slot, _)| SlotId(slot));
+    Strict { product: strict(product), checked: extended.system, slots: slots.collect() }
 }
 
 /// The table bound to its block, if it can be.
@@ -280,13 +320,8 @@ fn judge(
     cancel: &Cancel,
     listener: &(dyn Fn(Progress) + Sync),
 ) {
-    if ready.automaton.may_be_empty {
-        made.verdict = Verdict::Verified(Certificate { k: 1, ..Certificate::default() });
-        made.engine = "trivial";
-        confirm_certificate(ready, settings, made);
-        return;
-    }
-    let decided = decide(&ready.product, &settings.verify.options, cancel, listener);
+    let product = ready.strict.as_ref().map_or(&ready.product, |strict| &strict.product);
+    let decided = decide(product, &settings.verify.options, cancel, listener);
     made.engine = decided.engine;
     match decided.decision {
         Decision::Proved(certificate) => {
@@ -304,7 +339,7 @@ fn confirm_certificate(ready: &Ready, settings: &Settings, made: &mut Verified) 
     // The second check gets as much time again, and half a minute at least.
     let deadline = Instant::now() + settings.verify.options.timeout.max(Duration::from_secs(30));
     let stop: Stop = Arc::new(move || Instant::now() >= deadline);
-    if let Err(rejection) = invariant::check(&ready.product.system, certificate, &stop) {
+    if let Err(rejection) = invariant::check(ready.system(), certificate, &stop) {
         made.internal = Some(match rejection {
             Rejection::OutOfTime => "the certificate could not be checked again in time".to_owned(),
             other => format!("the certificate of `{}` was rejected: {other:?}", made.engine),
@@ -312,7 +347,7 @@ fn confirm_certificate(ready: &Ready, settings: &Settings, made: &mut Verified) 
         made.verdict = Verdict::Bounded(0);
         return;
     }
-    made.certificate = Some(artefact::certificate(&ready.product.system, certificate));
+    made.certificate = Some(artefact::certificate(ready.system(), certificate));
 }
 
 /// Replays a run on the interpreter and on the game.
@@ -320,9 +355,16 @@ fn confirm_run(ready: &Ready, choice: &Choice, made: &mut Verified) {
     let environment = Environment {
         globals: choice.globals.clone(),
         slots: ready.product.inputs.clone(),
-        inputs: choice.inputs.clone(),
+        inputs: choice.inputs.iter().map(|inputs| inputs[..ready.product.inputs.len()].to_vec()).collect(),
     };
     let replay = ready.replay(&environment);
+    if !matches!(replay.end, End::Lost(_) | End::Fault(_))
+        && let Some(strict) = &ready.strict
+        && let Some(from) = repeated_from(&strict.product, choice)
+    {
+        confirm_repetition(ready, environment, from, made);
+        return;
+    }
     let loss = match &replay.end {
         End::Lost(rows) => Loss::Table(rows.iter().map(failed).collect()),
         End::Fault(fault) => Loss::Fault { fault: fault.fault, place: fault.place },
@@ -336,6 +378,21 @@ fn confirm_run(ready: &Ready, choice: &Choice, made: &mut Verified) {
     inputs.truncate(replay.cycles.len());
     made.verdict = Verdict::Violated(Box::new(Run { globals: environment.globals, inputs, loss }));
     made.replay = Some(replay);
+}
+
+/// Replays a run that comes back to an earlier state in its last cycle; that cycle is not part of it.
+fn confirm_repetition(ready: &Ready, mut environment: Environment, from: usize, made: &mut Verified) {
+    environment.inputs.pop();
+    if let Err(error) = ready.repeats(&environment, from) {
+        made.internal =
+            Some(format!("the run of `{}` does not go on for ever when it is replayed: {error}", made.engine));
+        made.verdict = Verdict::Bounded(0);
+        return;
+    }
+    let loss = Loss::NeverEnds(from);
+    made.replay = Some(ready.replay(&environment));
+    let Environment { globals, inputs, .. } = environment;
+    made.verdict = Verdict::Violated(Box::new(Run { globals, inputs, loss }));
 }
 
 fn failed(row: &crate::recheck::replay::Failed) -> FailedRow {

@@ -14,6 +14,7 @@ pub mod options;
 pub mod portfolio;
 pub mod product;
 pub mod simulate;
+pub mod strict;
 pub mod verdict;
 
 mod asker;

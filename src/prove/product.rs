@@ -7,6 +7,9 @@
 //! Global variables of the table are states that are any value at first, constrained by their `with`, and never change. `X[-n]`
 //! is a chain of registers that begin with the declared initial value. Inputs of an enumeration's type take its declared
 //! values.
+//!
+//! In a cycle that faults, what the block would have set has no value: an assumption that reads it is taken to hold, so that
+//! it excuses no fault.
 
 use std::collections::BTreeMap;
 
@@ -63,6 +66,8 @@ struct Leaves {
     /// By variable, what it was so many cycles ago.
     past: BTreeMap<(usize, u32), Term>,
     globals: Vec<Term>,
+    /// Of each variable, whether the environment sets it.
+    set: Vec<bool>,
 }
 
 impl Leaves {
@@ -72,6 +77,17 @@ impl Leaves {
             Leaf::Variable { index, ago: 0 } => self.now[index][moment as usize],
             Leaf::Variable { index, ago } => self.past[&(index, ago)],
         }
+    }
+
+    /// Whether an assumption reads what the block sets in the same cycle.
+    fn reads_end(&self, assumption: &Expr<Leaf>) -> bool {
+        let mut found = false;
+        assumption.leaves(&mut |leaf| {
+            if let Leaf::Variable { index, ago: 0 } = leaf {
+                found |= !self.set[*index];
+            }
+        });
+        found
     }
 }
 
@@ -176,7 +192,9 @@ fn leaves(parts: &Parts<'_>, slots: &[&NamedVariable], system: &mut System, glob
         }
     }
     let globals = globals.iter().map(|index| system.states[*index].variable).collect();
-    Leaves { now, past, globals }
+    let roles = slots.iter().zip(&parts.table.variables);
+    let set = roles.map(|(slot, variable)| variable.role == TableRole::InOut || slot.role == Role::Input).collect();
+    Leaves { now, past, globals, set }
 }
 
 /// How far back the table looks, by variable.
@@ -273,7 +291,12 @@ impl Rows<'_> {
         let mut all = pool.truth(true);
         for constraint in self.parts.table.constraints(row, assumptions, site.first) {
             match holds(pool, self.parts.reals, constraint, &mut |leaf| self.leaves.term(leaf, moment)) {
-                Ok(term) => all = pool.and(all, term),
+                Ok(mut term) => {
+                    if assumptions && self.leaves.reads_end(constraint) {
+                        term = pool.or(term, self.parts.translated.fault);
+                    }
+                    all = pool.and(all, term);
+                }
                 Err(reason) => self.wrong.push(reason),
             }
         }

@@ -53,8 +53,9 @@ pub enum Loss {
         /// Where.
         place: Option<Place>,
     },
-    /// The environment can keep the system in the table for ever, which strict conformance excludes.
-    NeverEnds,
+    /// A fair environment can keep the system in the table for ever, which strict conformance excludes: the cycles from this
+    /// one on, counted from 0, can be repeated.
+    NeverEnds(usize),
 }
 
 /// A row whose assertions do not hold.

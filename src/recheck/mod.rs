@@ -9,4 +9,6 @@ mod cnf;
 mod float;
 mod gates;
 pub mod invariant;
+pub mod lasso;
 pub mod replay;
+pub mod strict;

@@ -86,30 +86,66 @@ pub struct Failed {
 /// Plays `environment` against the block.
 #[must_use]
 pub fn replay(subject: &Subject<'_>, environment: &Environment) -> Replay {
-    let slots = slots(subject);
-    let mut machine = Interpreter::with(subject.program, &subject.options);
-    let mut game = Game::new(subject.automaton);
-    let mut run =
-        Replay { cycles: Vec::new(), end: if *game.standing() == Standing::Ended { End::Ended } else { End::Open } };
+    let mut player = Player::new(subject, environment);
     for inputs in &environment.inputs {
-        if run.end != End::Open {
-            break;
+        player.cycle(inputs);
+    }
+    player.run
+}
+
+/// A run that is being replayed.
+pub(super) struct Player<'a> {
+    pub(super) subject: &'a Subject<'a>,
+    environment: &'a Environment,
+    slots: Vec<SlotId>,
+    pub(super) machine: Interpreter,
+    pub(super) game: Game<'a>,
+    pub(super) run: Replay,
+}
+
+impl<'a> Player<'a> {
+    pub(super) fn new(subject: &'a Subject<'a>, environment: &'a Environment) -> Self {
+        let game = Game::new(subject.automaton);
+        let end = if *game.standing() == Standing::Ended { End::Ended } else { End::Open };
+        Self {
+            subject,
+            environment,
+            slots: slots(subject),
+            machine: Interpreter::with(subject.program, &subject.options),
+            game,
+            run: Replay { cycles: Vec::new(), end },
         }
-        for (slot, value) in environment.slots.iter().zip(inputs) {
+    }
+
+    /// Plays one cycle, unless the run is over.
+    pub(super) fn cycle(&mut self, inputs: &[u64]) {
+        if self.run.end != End::Open {
+            return;
+        }
+        let (machine, run, subject) = (&mut self.machine, &mut self.run, self.subject);
+        for (slot, value) in self.environment.slots.iter().zip(inputs) {
             machine.set(*slot, *value);
         }
-        let begin: Vec<u64> = slots.iter().map(|slot| machine.get(*slot)).collect();
+        let begin: Vec<u64> = self.slots.iter().map(|slot| machine.get(*slot)).collect();
         let mut assigned = Vec::new();
         let fault = machine.cycle_observed(&mut assigned).err();
-        let end = slots.iter().map(|slot| machine.get(*slot));
+        let end = self.slots.iter().map(|slot| machine.get(*slot));
         let values = begin.into_iter().zip(end).map(|(begin, end)| [begin, end]).collect();
         run.cycles.push(Cycle { values, assigned, ..Cycle::default() });
-        let mut judge = Cells { subject, slots: &slots, environment, cycles: &run.cycles, tried: BTreeSet::new() };
+        let (slots, environment) = (&self.slots, self.environment);
+        let mut judge = Cells {
+            subject,
+            slots,
+            environment,
+            cycles: &run.cycles,
+            faulted: fault.is_some(),
+            tried: BTreeSet::new(),
+        };
         if !judge.globals_fit() {
             run.end = End::WrongGlobals;
-            break;
+            return;
         }
-        let standing = game.play(&mut judge).clone();
+        let standing = self.game.play(&mut judge).clone();
         let tried: Vec<(usize, bool)> = judge.tried.iter().map(|site| (row(subject, *site), site.first)).collect();
         run.end = match (&standing, fault) {
             (Standing::Uncovered, _) => End::Uncovered,
@@ -118,13 +154,13 @@ pub fn replay(subject: &Subject<'_>, environment: &Environment) -> Replay {
             (Standing::Ended, None) => End::Ended,
             (Standing::Open, None) => End::Open,
         };
-        let live: BTreeSet<usize> = game.live().into_iter().map(|leaf| subject.automaton.leaves[leaf].row).collect();
+        let live = self.game.live().into_iter().map(|leaf| subject.automaton.leaves[leaf].row);
+        let live: BTreeSet<usize> = live.collect();
         if let Some(cycle) = run.cycles.last_mut() {
             cycle.tried = tried;
             cycle.live = if run.end == End::Open { live.into_iter().collect() } else { Vec::new() };
         }
     }
-    run
 }
 
 fn row(subject: &Subject<'_>, site: Site) -> usize {
@@ -146,6 +182,8 @@ struct Cells<'a> {
     slots: &'a [SlotId],
     environment: &'a Environment,
     cycles: &'a [Cycle],
+    /// Whether the cycle was not done to its end.
+    faulted: bool,
     tried: BTreeSet<Site>,
 }
 
@@ -190,7 +228,19 @@ impl Cells<'_> {
 
     fn fit(&self, site: Site, assumptions: bool) -> bool {
         let mut own = self.subject.table.constraints(row(self.subject, site), assumptions, site.first);
-        own.all(|constraint| self.holds(constraint, assumptions))
+        own.all(|constraint| self.holds(constraint, assumptions) || (assumptions && self.has_no_value(constraint)))
+    }
+
+    /// Whether an assumption reads what a cycle that faulted would have set: it excuses no fault.
+    fn has_no_value(&self, constraint: &Expr<Leaf>) -> bool {
+        let mut found = false;
+        constraint.leaves(&mut |leaf| {
+            if let Leaf::Variable { index, ago: 0 } = *leaf {
+                let slot = &self.subject.program.slots[self.slots[index].0 as usize];
+                found |= slot.role != Role::Input && self.subject.table.variables[index].role != TableRole::InOut;
+            }
+        });
+        self.faulted && found
     }
 
     fn failed(&self, sites: &[Site]) -> Vec<Failed> {

@@ -7,6 +7,7 @@ mod corpora;
 mod docs;
 mod elaborate;
 mod evidence;
+mod exhaustive;
 mod fuzz;
 mod geteta;
 mod hostile;

@@ -53,9 +53,9 @@ fn what_is_not_modelled_and_what_is_wrong_have_exit_codes_of_their_own() {
     let wrong = TOGGLE.replace("out Lamp", "out Lump");
     let (code, answer) = verify(&[], folder(&wrong).path());
     assert_eq!((code, &answer["tables"][0]["verdict"]), (2, &Value::from("unusable")));
-    // Strict conformance is not decided, and is not taken for weak conformance.
+    // Nothing conforms strictly to a table that never ends.
     let (code, answer) = verify(&["--strict"], folder(TOGGLE).path());
-    assert_eq!((code, &answer["tables"][0]["verdict"]), (3, &Value::from("unsupported")));
+    assert_eq!((code, &answer["tables"][0]["verdict"]), (2, &Value::from("unusable")));
 }
 
 #[test]
@@ -83,4 +83,36 @@ fn a_bundle_is_checked_again_certificate_by_certificate() {
     let text = String::from_utf8_lossy(&checked.stdout).into_owned();
     assert_eq!(run(&["recheck", "release.zip"]).stdout, checked.stdout);
     assert!(text.contains("verified, checked again"), "{text}");
+}
+
+/// The last row is reached by what the block does, not by what the inputs are.
+fn strict() -> String {
+    let text = TOGGLE.replace("@gtt Stays on", "@gtt Stays on (strict)");
+    text.replace("| 3 | - | T | -∞ |", "| 3 | - | T | - |\n   | 4 | - | F | 1 |")
+}
+
+#[test]
+fn strict_conformance_asks_that_the_end_is_reached() {
+    // The lamp stays on for ever, and the inputs always let the last row begin.
+    let stays = folder(&strict());
+    let (code, answer) = verify(&[], stays.path());
+    let table = &answer["tables"][0];
+    assert_eq!((code, &table["verdict"]), (1, &Value::from("violated")), "{answer:#}");
+    assert_eq!(table["run"]["end"]["kind"], "never-ends");
+    // It goes out after three cycles, whatever the inputs are.
+    let body = "IF n > 0 THEN n := MIN(n + 1, 4); ELSIF Press THEN n := 1; END_IF\nLamp := n > 0 AND n < 4;";
+    let goes = strict().replace("IF Press THEN Lamp := TRUE; END_IF", body);
+    let goes = folder(&goes.replace("VAR_OUTPUT", "VAR n : INT; END_VAR\nVAR_OUTPUT"));
+    let (code, answer) = verify(&[], goes.path());
+    assert_eq!((code, &answer["tables"][0]["verdict"]), (0, &Value::from("verified")), "{answer:#}");
+    for folder in [&stays, &goes] {
+        let run = |arguments: &[&str]| {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_rungbook"));
+            command.current_dir(folder.path()).args(arguments).output().expect("it runs")
+        };
+        assert!(run(&["evidence", "bundle", ".", "-o", "release.zip"]).status.success());
+        let checked = run(&["recheck", "release.zip"]);
+        let text = String::from_utf8_lossy(&checked.stdout).into_owned();
+        assert!(checked.status.success() && text.contains("checked again"), "{text}");
+    }
 }

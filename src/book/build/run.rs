@@ -73,6 +73,12 @@ fn summary(end: &Value) -> Vec<String> {
             end["line"]
         )];
     }
+    if end["kind"] == "never-ends" {
+        return vec![format!(
+            "The cycles from {} to {cycle} can be repeated for ever: the table is never left.",
+            end["from"]
+        )];
+    }
     let row = |row: &Value| {
         let cells = list(&row["cells"]).iter().map(|cell| {
             format!(

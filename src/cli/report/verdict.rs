@@ -109,6 +109,10 @@ fn loss(run: &Value) -> String {
         return format!("            cycle {}: {fault} at {file}:{line}\n", end["cycle"]);
     }
     let mut out = String::new();
+    if end["kind"] == "never-ends" {
+        let (from, to) = (&end["from"], &end["cycle"]);
+        out.push_str(&format!("            cycles {from} to {to} can be repeated for ever: the table is never left\n"));
+    }
     for row in end["rows"].as_array().into_iter().flatten() {
         let cells: Vec<String> = row["cells"]
             .as_array()

@@ -14,7 +14,7 @@
 //! which are lost, since the game asks of the set of words only whether it is empty and whether one ends.
 
 use super::edges::{Condition, Counter, Edge};
-use super::{Automaton, Site, Target, Test, Update, meet};
+use super::{Automaton, Keeps, OpenEnd, Site, Target, Test, Update, meet};
 use crate::logic::system::State;
 use crate::logic::term::{Pool, Term};
 
@@ -41,6 +41,10 @@ pub struct Encoding {
     pub ended: Term,
     /// For each leaf, whether a word that is in it is still possible after the cycle.
     pub live: Vec<Term>,
+    /// A word is in a row at the beginning of the cycle.
+    pub alive: Term,
+    /// For each of [`Automaton::open_ends`], that the environment does not stay in it in this cycle.
+    pub fair: Vec<Term>,
     /// For each site, whether the inputs admit a word that is there in this cycle.
     pub tried: Vec<(Site, Term)>,
 }
@@ -95,7 +99,17 @@ enum Moved {
 /// Encodes the game of `automaton`; `None` where it would need more than a million holders.
 pub fn encode(automaton: &Automaton, pool: &mut Pool, sites: &mut dyn Sites) -> Option<Encoding> {
     let crowded = meet::crowded(automaton, &mut |one, other| sites.compatible(one, other));
-    let mut encoder = Encoder { automaton, pool, sites, holders: Vec::new(), fits: std::collections::BTreeMap::new() };
+    let ends = automaton.open_ends();
+    let no = pool.truth(false);
+    let mut encoder = Encoder {
+        kept: vec![[no, no]; ends.len()],
+        ends,
+        automaton,
+        pool,
+        sites,
+        holders: Vec::new(),
+        fits: std::collections::BTreeMap::new(),
+    };
     for (leaf, crowded) in crowded.iter().enumerate() {
         encoder.add_holders(leaf, *crowded)?;
     }
@@ -108,6 +122,9 @@ struct Encoder<'a, 's> {
     sites: &'s mut dyn Sites,
     holders: Vec<Holder>,
     fits: std::collections::BTreeMap<Site, Term>,
+    ends: Vec<OpenEnd>,
+    /// For each open end, whether a word stays in it, and whether one leaves.
+    kept: Vec<[Term; 2]>,
 }
 
 /// Whether a condition of the automaton asks for a count of the block.
@@ -255,6 +272,9 @@ impl Encoder<'_, '_> {
             let free = self.pool.not(forced);
             guard = self.pool.and(guard, free);
         }
+        if let Some(holder) = from {
+            self.keep(edge, holder, guard);
+        }
         let row = match (edge.target, from) {
             (Target::Stay(leaf), Some(holder)) => {
                 self.successor(self.holders[holder].row, self.automaton.leaves[leaf].saturation)
@@ -263,6 +283,29 @@ impl Encoder<'_, '_> {
         };
         let loops = self.loops_after(edge, from, site.leaf);
         arrivals[site.leaf].push(Arrival { guard, site, row, loops });
+    }
+
+    /// Notes what the edge does to a word in an open end.
+    fn keep(&mut self, edge: &Edge, holder: usize, guard: Term) {
+        let leaf = self.holders[holder].leaf;
+        for (end, known) in self.ends.iter().zip(&mut self.kept) {
+            let moved = match self.automaton.keeps(*end, leaf, edge) {
+                Some(Keeps::Stays) => &mut known[0],
+                Some(Keeps::Leaves) => &mut known[1],
+                Some(Keeps::Endless) | None => continue,
+            };
+            *moved = self.pool.or(*moved, guard);
+        }
+    }
+
+    /// For each open end, that a word leaves it or none stays.
+    fn fair(&mut self) -> Vec<Term> {
+        let kept = std::mem::take(&mut self.kept);
+        let fair = |[stays, leaves]: [Term; 2]| {
+            let none = self.pool.not(stays);
+            self.pool.or(leaves, none)
+        };
+        kept.into_iter().map(fair).collect()
     }
 
     fn loops_after(&mut self, edge: &Edge, from: Option<usize>, target: usize) -> Vec<Moved> {
@@ -458,7 +501,10 @@ impl Encoder<'_, '_> {
             }
         }
         let states = self.states(start, ended, survivors);
-        Encoding { states, covered, lost, ended, live, tried }
+        let active: Vec<Term> = self.holders.iter().map(|holder| holder.active).collect();
+        let alive = self.pool.any(active);
+        let fair = self.fair();
+        Encoding { states, covered, lost, ended, live, alive, fair, tried }
     }
 
     fn tried(&mut self, arrivals: &[Vec<Arrival>]) -> Vec<(Site, Term)> {

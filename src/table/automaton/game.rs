@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use super::ranges::Ranges;
-use super::{Automaton, Condition, Counter, Edge, Rival, Site, Target, Test, Update};
+use super::{Automaton, Condition, Counter, Edge, Keeps, OpenEnd, Rival, Site, Target, Test, Update};
 
 /// Whether a row's constraints hold in the cycle that is played.
 pub trait Judge {
@@ -38,6 +38,8 @@ pub struct Game<'a> {
     tokens: Vec<Tokens>,
     cycle: u64,
     standing: Standing,
+    ends: Vec<OpenEnd>,
+    fair: Vec<bool>,
 }
 
 /// The live tokens of a row: for each choice of the blocks' counts, the counts of the row.
@@ -48,7 +50,9 @@ impl<'a> Game<'a> {
     #[must_use]
     pub fn new(automaton: &'a Automaton) -> Self {
         let standing = if automaton.may_be_empty { Standing::Ended } else { Standing::Open };
-        Self { automaton, tokens: vec![Tokens::new(); automaton.leaves.len()], cycle: 0, standing }
+        let ends = automaton.open_ends();
+        let tokens = vec![Tokens::new(); automaton.leaves.len()];
+        Self { automaton, tokens, cycle: 0, standing, fair: vec![true; ends.len()], ends }
     }
 
     /// How it stands.
@@ -69,6 +73,18 @@ impl<'a> Game<'a> {
         (0..self.tokens.len()).filter(|leaf| !self.tokens[*leaf].is_empty()).collect()
     }
 
+    /// For each of [`Automaton::open_ends`], that the environment did not stay in it in the cycle played last.
+    #[must_use]
+    pub fn fair(&self) -> &[bool] {
+        &self.fair
+    }
+
+    /// Whether the same words are possible.
+    #[must_use]
+    pub fn same_words(&self, other: &Self) -> bool {
+        self.tokens == other.tokens
+    }
+
     /// How many ranges of counts the live tokens take; what a cycle costs is in proportion.
     #[must_use]
     pub fn weight(&self) -> usize {
@@ -80,8 +96,15 @@ impl<'a> Game<'a> {
         if self.standing != Standing::Open {
             return &self.standing;
         }
-        let round = Round { automaton: self.automaton, judge, inputs: BTreeMap::new(), moved: BTreeMap::new() };
-        let moved = round.play(&self.tokens, self.cycle == 0);
+        let round = Round {
+            automaton: self.automaton,
+            judge,
+            inputs: BTreeMap::new(),
+            moved: BTreeMap::new(),
+            kept: self.ends.iter().map(|end| (*end, [false; 2])).collect(),
+        };
+        let (moved, fair) = round.play(&self.tokens, self.cycle == 0);
+        self.fair = fair;
         self.cycle += 1;
         self.standing = match moved {
             Moved::Uncovered => Standing::Uncovered,
@@ -165,6 +188,8 @@ struct Round<'a, 'j> {
     inputs: BTreeMap<Site, bool>,
     /// The tokens whose inputs fit, by where they are.
     moved: BTreeMap<Site, Tokens>,
+    /// For each open end, whether a word stays in it, and whether one leaves.
+    kept: Vec<(OpenEnd, [bool; 2])>,
 }
 
 impl Round<'_, '_> {
@@ -177,7 +202,7 @@ impl Round<'_, '_> {
         fits
     }
 
-    fn play(mut self, tokens: &[Tokens], first: bool) -> Moved {
+    fn play(mut self, tokens: &[Tokens], first: bool) -> (Moved, Vec<bool>) {
         let automaton = self.automaton;
         if first {
             for edge in &automaton.entries {
@@ -191,7 +216,8 @@ impl Round<'_, '_> {
                 }
             }
         }
-        self.answer()
+        let fair = self.kept.iter().map(|(_, [stays, leaves])| *leaves || !stays).collect();
+        (self.answer(), fair)
     }
 
     /// Moves the tokens of one place along one edge.
@@ -207,6 +233,13 @@ impl Round<'_, '_> {
         let counts = self.not_forced(&edge.rivals, from, loops, counts);
         if counts.is_empty() {
             return;
+        }
+        for (end, known) in &mut self.kept {
+            match from.and_then(|leaf| self.automaton.keeps(*end, leaf, edge)) {
+                Some(Keeps::Stays) => known[0] = true,
+                Some(Keeps::Leaves) => known[1] = true,
+                Some(Keeps::Endless) | None => {}
+            }
         }
         let (loops, counts) = match edge.target {
             Target::Stay(leaf) => (loops.to_vec(), counts.next(self.automaton.leaves[leaf].saturation)),

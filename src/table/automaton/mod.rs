@@ -14,6 +14,7 @@
 
 mod edges;
 pub mod encode;
+mod fair;
 pub mod game;
 pub(in crate::table) mod meet;
 mod ranges;
@@ -25,6 +26,7 @@ use super::duration::Repeat;
 use super::model::Table;
 
 pub use edges::{Condition, Counter, Edge, Rival, Target, Test, Update};
+pub use fair::{Keeps, OpenEnd};
 
 /// A table unrolled, as far as its durations need no unrolling.
 #[derive(Clone, Debug)]

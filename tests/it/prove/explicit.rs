@@ -138,3 +138,62 @@ pub(crate) fn check_trace(model: &Model, trace: &Trace) {
     }
     assert!(bad);
 }
+
+/// Whether the proof is one, as the second check has it: all states of an induction's step differ, the last one too, which a
+/// shortest bad run satisfies.
+pub(crate) fn is_proof(model: &Model, proof: &Proof) -> bool {
+    if proof.k == 0 {
+        return false;
+    }
+    let inside: Vec<bool> = (0..1u32 << model.latches.len()).map(|state| holds(model, proof, state)).collect();
+    let allowed = |state: u32| steps(model, state).any(|step| step.allowed);
+    for state in (0..1u32 << model.latches.len()).filter(|&state| allowed(state)) {
+        if is_first(model, state) && !inside[state as usize] {
+            return false;
+        }
+        // What no cycle follows is no state of a run.
+        let leaves = |step: &Step| step.allowed && allowed(step.to) && !inside[step.to as usize];
+        if inside[state as usize] && steps(model, state).any(|step| leaves(&step)) {
+            return false;
+        }
+        if proof.k == 1 && inside[state as usize] && steps(model, state).any(|step| step.allowed && step.bad) {
+            return false;
+        }
+    }
+    let starts = (0..1u32 << model.latches.len()).filter(|&state| inside[state as usize]);
+    proof.k == 1
+        || shortest(model).is_none_or(|length| length > proof.k)
+            && starts.into_iter().all(|state| no_bad_step(model, proof, &inside, &mut vec![state]))
+}
+
+fn no_bad_step(model: &Model, proof: &Proof, inside: &[bool], path: &mut Vec<u32>) -> bool {
+    for step in steps(model, path[path.len() - 1]).filter(|step| step.allowed) {
+        if path.len() == proof.k + 1 {
+            if step.bad {
+                return false;
+            }
+        } else if !step.bad && inside[step.to as usize] && !(proof.simple_path && path.contains(&step.to)) {
+            path.push(step.to);
+            let none = no_bad_step(model, proof, inside, path);
+            path.pop();
+            if !none {
+                return false;
+            }
+        }
+    }
+    true
+}
+
+/// Whether the trace is a run that is bad in its last cycle.
+pub(crate) fn is_bad_run(model: &Model, trace: &Trace) -> bool {
+    let bits = |values: &[bool]| values.iter().enumerate().map(|(i, &v)| u32::from(v) << i).sum::<u32>();
+    let mut state = bits(&trace.latches);
+    let (mut fits, mut bad) = (is_first(model, state), false);
+    for inputs in &trace.inputs {
+        let values = nodes(model, state, bits(inputs));
+        fits &= model.constraints.iter().all(|&constraint| of(&values, constraint));
+        bad = of(&values, model.bad[0]);
+        state = next(model, &values);
+    }
+    fits && bad
+}

@@ -2,6 +2,7 @@
 //! checked by another solver.
 
 pub(crate) mod aiger;
+mod broken;
 pub(crate) mod check;
 mod explicit;
 pub(crate) mod families;
