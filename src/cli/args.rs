@@ -170,6 +170,9 @@ pub(crate) struct VerifyArgs {
     /// Decide anew, whatever the store of verdicts knows
     #[arg(long)]
     pub(crate) fresh: bool,
+    /// Decide nothing; write what is to be decided of each table to DIR/UNIT-TABLE.aig, for other checkers
+    #[arg(long, value_name = "DIR")]
+    pub(crate) aiger: Option<PathBuf>,
     /// How to print
     #[arg(long, value_enum, default_value_t = Output::Text)]
     pub(crate) format: Output,

@@ -5,9 +5,11 @@ use std::fmt::Write as _;
 use super::Project;
 use crate::library::ItemId;
 use crate::logic::blast::blast;
+use crate::logic::system::System;
 use crate::logic::write;
 use crate::machine::elaborate::{self, elaborate};
 use crate::machine::translate::{self, Translated, translate};
+use crate::prove::decide::together;
 use crate::text::Place;
 
 /// The form to write.
@@ -64,6 +66,21 @@ fn located(project: &Project, place: Option<Place>, message: &str, help: &str) -
         let _ = write!(text, "; {help}");
     }
     text
+}
+
+/// A block with its table as binary AIGER, with one bad literal, that some obligation fails, and without constraints, which
+/// not every tool reads.
+#[must_use]
+pub fn obligation(system: &System) -> Vec<u8> {
+    let system = together(system);
+    let blasted = blast(&system);
+    let mut names = write::Names::of(&system, &blasted);
+    names.constraints.clear();
+    let model = blasted.model.folded();
+    if model.latches.len() > blasted.latches.len() {
+        names.latches.push("constrained so far".to_owned());
+    }
+    write::binary(&model, &names)
 }
 
 /// The bytes of the file. Operators that the form does not have are written with those that it has.

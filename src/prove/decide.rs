@@ -65,7 +65,8 @@ pub fn decide(product: &Product, options: &Options, cancel: &Cancel, listener: &
 }
 
 /// The system with one obligation: that all hold.
-fn together(system: &System) -> System {
+#[must_use]
+pub fn together(system: &System) -> System {
     let mut system = system.clone();
     let terms: Vec<_> = system.obligations.iter().map(|obligation| obligation.term).collect();
     let term = system.pool.all(terms);

@@ -116,3 +116,16 @@ fn strict_conformance_asks_that_the_end_is_reached() {
         assert!(checked.status.success() && text.contains("checked again"), "{text}");
     }
 }
+
+#[test]
+fn obligations_are_written_for_other_checkers() {
+    let folder = folder(TOGGLE);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rungbook"));
+    command.current_dir(folder.path()).args(["verify", "-q", "--aiger", "out"]).assert().code(0).stdout("");
+    let bytes = fs::read(folder.path().join("out/FB_Lamp-Stays_on.aig")).expect("written");
+    let text = String::from_utf8_lossy(&bytes);
+    let header: Vec<&str> = text.lines().next().expect("a header").split(' ').collect();
+    // One bad literal, and no constraints, which not every checker reads.
+    assert_eq!((header[0], header[4], header.get(6), header.get(7)), ("aig", "0", Some(&"1"), None));
+    assert!(text.lines().any(|line| line.starts_with('l') && line.ends_with("Lamp")), "names are kept: {text}");
+}

@@ -10,13 +10,13 @@ use std::time::Duration;
 use crate::cli::args::{Output, VerifyArgs};
 use crate::cli::report::{progress::Progress, verdict};
 use crate::cli::store::Store;
-use crate::cli::{Exit, Failure, print, say, stamp, tree};
+use crate::cli::{Exit, Failure, print, say, stamp, tree, write};
 use crate::config::{ConfigFile, Settings};
 use crate::evidence::record::{Answer, Record};
 use crate::library::ItemKind;
 use crate::library::names::fold;
 use crate::pipeline::verify::Verified;
-use crate::pipeline::{self, Project, answer, records};
+use crate::pipeline::{self, Project, answer, export, records};
 use crate::prove::engine::Cancel;
 use crate::source::{Disk, FileSystem, Memory};
 use crate::table::read;
@@ -41,6 +41,9 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
         attach_alone(&mut job.project);
     }
     let chosen = chosen(&job.project, args.table.as_deref())?;
+    if let Some(folder) = &args.aiger {
+        return obligations(&job.project, &chosen, folder);
+    }
     let done = decide(&job, &chosen, args, &progress)?;
     match args.format {
         Output::Json => print(&format!("{:#}\n", verdict::json(&job.project, &done))),
@@ -141,6 +144,24 @@ fn chosen(project: &Project, name: Option<&str>) -> Result<Vec<usize>, Failure> 
         Some(name) if chosen.is_empty() => Err(Failure(format!("no table is named `{name}`"))),
         _ => Ok(chosen),
     }
+}
+
+/// Writes each obligation for other checkers; what is not modelled is named.
+fn obligations(project: &Project, chosen: &[usize], folder: &Path) -> Result<Exit, Failure> {
+    let mut exit = Exit::Ok;
+    for &index in chosen {
+        let attached = &project.tables[index];
+        let unit = attached.item.map_or("", |item| &project.catalogue.item(item).name);
+        let name = format!("{unit}-{}", attached.table.name).replace(|c: char| !c.is_alphanumeric() && c != '-', "_");
+        match pipeline::verify::ready(project, index) {
+            Ok(ready) => write::file(&folder.join(format!("{name}.aig")), &export::obligation(ready.system()))?,
+            Err(reason) => {
+                say(&format!("`{}` has no obligation: {reason}", attached.table.name));
+                exit = Exit::Findings;
+            }
+        }
+    }
+    Ok(exit)
 }
 
 /// Decides the tables, several at a time; each verdict is kept as soon as it is there.

@@ -171,3 +171,21 @@ pub struct Model {
     /// cycle, violates; the index names the property.
     pub bad: Vec<Lit>,
 }
+
+impl Model {
+    /// The same model without constraints, for tools that know none: one more latch remembers whether they have held so
+    /// far.
+    #[must_use]
+    pub fn folded(&self) -> Self {
+        let mut model = self.clone();
+        if model.constraints.is_empty() {
+            return model;
+        }
+        let so_far = model.aig.leaf();
+        let constraints = std::mem::take(&mut model.constraints);
+        let holds = constraints.into_iter().fold(so_far, |all, constraint| model.aig.and(all, constraint));
+        model.latches.push(Latch { lit: so_far, next: holds, initial: Some(true) });
+        model.bad = self.bad.iter().map(|bad| model.aig.and(*bad, holds)).collect();
+        model
+    }
+}

@@ -2,22 +2,6 @@
 
 use rungbook::logic::aig::{Gate, Latch, Lit, Model};
 
-/// The same model without constraints: a latch remembers whether they held so far.
-pub(crate) fn folded(model: &Model) -> Model {
-    let mut model = model.clone();
-    if model.constraints.is_empty() {
-        return model;
-    }
-    let so_far = model.aig.leaf();
-    let mut holds = so_far;
-    for constraint in std::mem::take(&mut model.constraints) {
-        holds = model.aig.and(holds, constraint);
-    }
-    model.latches.push(Latch { lit: so_far, next: holds, initial: Some(true) });
-    model.bad = model.bad.clone().iter().map(|&b| model.aig.and(b, holds)).collect();
-    model
-}
-
 fn number(out: &mut Vec<u8>, mut value: u32) {
     while value >= 0x80 {
         out.push((value & 0x7F) as u8 | 0x80);
@@ -28,7 +12,7 @@ fn number(out: &mut Vec<u8>, mut value: u32) {
 
 /// The file.
 pub(crate) fn write(model: &Model) -> Vec<u8> {
-    let model = folded(model);
+    let model = model.folded();
     let mut place = vec![0u32; model.aig.len()];
     let leaves = model.inputs.iter().copied().chain(model.latches.iter().map(|l| l.lit));
     let mut count = 0;
