@@ -12,6 +12,7 @@ use crate::evidence::record::{Artefact, ArtefactKind, Claim, Record};
 use crate::machine::elaborate::Stub;
 use crate::recheck::invariant::{self, Stop};
 use crate::recheck::replay::{End, Environment};
+use crate::semantics::fixed::Reading;
 use crate::source::Memory;
 use crate::table::model::Quantity;
 
@@ -73,6 +74,7 @@ fn read(files: &BTreeMap<String, Vec<u8>>, claim: &Claim) -> Result<Project, Str
     project.asked = Asked {
         strict: claim.options.contains_key("strict"),
         loop_limit: claim.options.get("loop-limit").and_then(|limit| limit.parse().ok()).unwrap_or(1_000),
+        fixed: claim.options.get("fixed").map(|text| Reading::parse(text)).transpose()?,
         stubs: claim.options.iter().filter_map(|(name, text)| stub(name, text)).collect(),
         ..project.asked
     };
@@ -140,7 +142,8 @@ fn run(project: &Project, table: usize, artefact: &Artefact) -> Result<(), Strin
     let length = artefact.value["cycles"].as_array().map_or(0, Vec::len);
     let cycle = |index: usize| columns.iter().map(|column| column.get(index).copied().unwrap_or(0)).collect();
     let inputs = (0..length).map(cycle).collect();
-    match ready.replay(&Environment { globals, slots: ready.input_slots(), inputs }).end {
+    let environment = Environment { globals, slots: ready.input_slots(), inputs };
+    match ready.replay(&environment).map_err(|missing| missing.to_string())?.end {
         End::Lost(_) | End::Fault(_) => Ok(()),
         other => Err(format!("the run does not violate the table when it is played again: {other:?}")),
     }

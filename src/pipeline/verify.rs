@@ -11,14 +11,13 @@ use crate::logic::certificate::Certificate;
 use crate::logic::system::System;
 use crate::machine::elaborate::{self, elaborate};
 use crate::machine::program::{Program, SlotId};
-use crate::machine::{interpret, translate};
+use crate::machine::{fixed, interpret, translate};
 use crate::prove::decide::{Choice, Decision, decide};
 use crate::prove::engine::{Cancel, Progress};
 use crate::prove::product::{Parts, Product, product};
 use crate::prove::verdict::{FailedRow, Loss, Reason, Run, Verdict};
 use crate::recheck::invariant::{self, Rejection, Stop};
-use crate::recheck::replay::{End, Environment, Replay, Subject, replay};
-use crate::semantics::encode::Reals;
+use crate::recheck::replay::{End, Environment, Missing, Replay, Subject, replay};
 use crate::table::automaton::{Automaton, NoAutomaton};
 use crate::table::bind::{BoundTable, bind};
 use crate::table::{AttachedTable, Table};
@@ -133,8 +132,10 @@ impl Ready {
     }
 
     /// Plays `environment` on the interpreter and the game.
-    #[must_use]
-    pub fn replay(&self, environment: &Environment) -> Replay {
+    ///
+    /// # Errors
+    /// Where the table names a variable that the block does not have.
+    pub fn replay(&self, environment: &Environment) -> Result<Replay, Missing> {
         let subject = Subject {
             program: &self.program,
             options: interpret::Options { loop_limit: self.loop_limit },
@@ -173,6 +174,9 @@ pub fn asked(project: &Project, table: &Table) -> (u64, BTreeMap<String, String>
     if asked.strict {
         options.insert("strict".to_owned(), "true".to_owned());
     }
+    if let Some(reading) = asked.fixed {
+        options.insert("fixed".to_owned(), reading.written());
+    }
     options.extend(asked.constants.iter().map(|(name, value)| (format!("const {name}"), value.clone())));
     let stubs = asked.stubs.iter().map(|(name, stub)| {
         let text = if stub.arbitrary { "arbitrary".to_owned() } else { stub.text.clone() };
@@ -191,25 +195,28 @@ fn prepare(project: &Project, attached: &AttachedTable, cycle_time: u64) -> Resu
         let help = "ask for weak conformance, the default: that no run violates the table";
         return Err(Verdict::Unsupported(vec![reason("strict conformance is not decided by this version", help)]));
     }
-    let (unit, table) = bound(project, attached)?;
+    let (unit, mut table) = bound(project, attached)?;
     let automaton = Automaton::build(&attached.table).map_err(|error| no_automaton(error, &attached.table))?;
     let options = elaborate::Options {
         cycle_time,
         stubs: project.asked.stubs.iter().map(|(_, stub)| stub.clone()).collect(),
         ..elaborate::Options::default()
     };
-    let program = elaborate(&project.catalogue, &project.names, unit, &options).map_err(|list| {
+    let mut program = elaborate(&project.catalogue, &project.names, unit, &options).map_err(|list| {
         let reasons = list.into_iter().map(|one| Reason { message: one.message, help: one.help, place: one.place });
         Verdict::Unsupported(reasons.collect())
     })?;
+    if let Some(reading) = project.asked.fixed {
+        fixed::read(&mut program, reading);
+        table.read_in_fixed_point(reading);
+    }
     let loop_limit = project.asked.loop_limit;
     let options = translate::Options { loop_limit, ..translate::Options::default() };
     let translated = translate::translate(&program, &options).map_err(|unsupported| {
         let message = format!("{} is not modelled", unsupported.what);
         Verdict::Unsupported(vec![Reason { message, help: String::new(), place: unsupported.place }])
     })?;
-    let parts =
-        Parts { program: &program, translated: &translated, table: &table, automaton: &automaton, reals: Reals::Ieee };
+    let parts = Parts { program: &program, translated: &translated, table: &table, automaton: &automaton };
     let product = product(&parts).map_err(Verdict::Unsupported)?;
     Ok(Ready { program: Arc::new(program), table: Arc::new(table), automaton, product, loop_limit })
 }
@@ -322,7 +329,14 @@ fn confirm_run(ready: &Ready, choice: &Choice, made: &mut Verified) {
         slots: ready.product.inputs.clone(),
         inputs: choice.inputs.clone(),
     };
-    let replay = ready.replay(&environment);
+    let replay = match ready.replay(&environment) {
+        Ok(replay) => replay,
+        Err(missing) => {
+            made.internal = Some(format!("the run of `{}` cannot be replayed: {missing}", made.engine));
+            made.verdict = Verdict::Bounded(0);
+            return;
+        }
+    };
     let loss = match &replay.end {
         End::Lost(rows) => Loss::Table(rows.iter().map(failed).collect()),
         End::Fault(fault) => Loss::Fault { fault: fault.fault, place: fault.place },

@@ -83,10 +83,25 @@ pub struct Failed {
     pub columns: Vec<usize>,
 }
 
+/// A variable of the table that the block does not have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Missing {
+    /// Its path.
+    pub path: String,
+}
+
+impl std::fmt::Display for Missing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "the block has no variable `{}`", self.path)
+    }
+}
+
 /// Plays `environment` against the block.
-#[must_use]
-pub fn replay(subject: &Subject<'_>, environment: &Environment) -> Replay {
-    let slots = slots(subject);
+///
+/// # Errors
+/// Where the table names a variable that the block does not have.
+pub fn replay(subject: &Subject<'_>, environment: &Environment) -> Result<Replay, Missing> {
+    let slots = slots(subject)?;
     let mut machine = Interpreter::with(subject.program, &subject.options);
     let mut game = Game::new(subject.automaton);
     let mut run =
@@ -124,18 +139,18 @@ pub fn replay(subject: &Subject<'_>, environment: &Environment) -> Replay {
             cycle.live = if run.end == End::Open { live.into_iter().collect() } else { Vec::new() };
         }
     }
-    run
+    Ok(run)
 }
 
 fn row(subject: &Subject<'_>, site: Site) -> usize {
     subject.automaton.leaves[site.leaf].row
 }
 
-/// The slot of each variable of the table; the machine's own slot 0 where it has none, which no verdict is given for.
-fn slots(subject: &Subject<'_>) -> Vec<SlotId> {
+/// The slot of each variable of the table.
+fn slots(subject: &Subject<'_>) -> Result<Vec<SlotId>, Missing> {
     let slot = |path: &str| {
         let named = subject.program.variables.iter().find(|variable| variable.path.eq_ignore_ascii_case(path));
-        named.map_or(SlotId(0), |variable| variable.slot)
+        named.map(|variable| variable.slot).ok_or_else(|| Missing { path: path.to_owned() })
     };
     subject.table.variables.iter().map(|variable| slot(&variable.path)).collect()
 }
