@@ -161,6 +161,9 @@ pub(crate) struct VerifyArgs {
     /// Strict conformance for every table: the end is reached, unless the environment stays for ever where it may
     #[arg(long)]
     pub(crate) strict: bool,
+    /// Read REAL and LREAL in fixed point, so many decimal digits in so many bits, such as 3,32: an assumption of the verdict
+    #[arg(long, value_name = "DIGITS,WIDTH")]
+    pub(crate) fixed: Option<String>,
     /// Cycle time of tables that state none, such as 4ms
     #[arg(long, value_name = "TIME")]
     pub(crate) cycle: Option<String>,

@@ -33,6 +33,7 @@ pub const TEMPLATE: &str = r##"# rungbook.toml: how the manual of this tree is m
 # jobs = 0               # tables at a time; 0 is one for each core
 # strict = false         # strict conformance for every table: its end is reached
 # loop-limit = 1000      # how often a loop without constant bounds may be done
+# fixed = { digits = 3, width = 32 }   # REAL and LREAL in fixed point, for proofs; the verdict says so
 # stubs = { "FB_Vendor" = "arbitrary", "FB_Other" = "stubs/FB_Other.st" }
 
 [audit]

@@ -6,6 +6,7 @@ use std::time::Duration;
 use serde::Deserialize;
 
 use super::file::ConfigError;
+use crate::machine::fixed::Reading;
 use crate::prove::options::Options;
 
 /// `[verify]` as typed.
@@ -22,9 +23,21 @@ pub struct VerifySection {
     pub strict: Option<bool>,
     /// How often the body of a loop without constant bounds may be done.
     pub loop_limit: Option<u64>,
+    /// Reals in fixed point: decimal digits behind the point, and bits.
+    pub fixed: Option<FixedSection>,
     /// What stands in for blocks that have no source: `arbitrary`, or a file of Structured Text below the root.
     #[serde(default)]
     pub stubs: BTreeMap<String, String>,
+}
+
+/// `fixed` under `[verify]` as typed.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FixedSection {
+    /// Decimal digits behind the point.
+    pub digits: u32,
+    /// Bits.
+    pub width: u32,
 }
 
 /// `[verify]` with its defaults.
@@ -36,13 +49,15 @@ pub struct Verification {
     pub jobs: usize,
     /// How often the body of a loop without constant bounds may be done.
     pub loop_limit: u64,
+    /// How reals are read, if not as IEEE 754.
+    pub fixed: Option<Reading>,
     /// What stands in for blocks that have no source.
     pub stubs: BTreeMap<String, String>,
 }
 
 impl Default for Verification {
     fn default() -> Self {
-        Self { options: Options::default(), jobs: 0, loop_limit: 1_000, stubs: BTreeMap::new() }
+        Self { options: Options::default(), jobs: 0, loop_limit: 1_000, fixed: None, stubs: BTreeMap::new() }
     }
 }
 
@@ -57,6 +72,8 @@ impl Verification {
             Some(0) => Err(ConfigError { message: format!("`verify.{key}` is 0; it takes 1 or more") }),
             value => Ok(value.unwrap_or(default)),
         };
+        let fixed = section.fixed.map(|fixed| Reading::new(fixed.digits, fixed.width)).transpose();
+        let fixed = fixed.map_err(|message| ConfigError { message: format!("`verify.fixed`: {message}") })?;
         Ok(Self {
             options: Options {
                 timeout: Duration::from_secs(positive("timeout", section.timeout, default.options.timeout.as_secs())?),
@@ -65,6 +82,7 @@ impl Verification {
             },
             jobs: section.jobs.unwrap_or(0),
             loop_limit: positive("loop-limit", section.loop_limit, default.loop_limit)?,
+            fixed,
             stubs: section.stubs,
         })
     }

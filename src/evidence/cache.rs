@@ -89,6 +89,7 @@ pub fn answer(claim: &Claim, found: Found) -> Answer {
             verdict: record.verdict,
             coverage: record.coverage,
             artefact,
+            rests_on: record.rests_on,
             engine: record.engine,
             effort: record.effort,
         },

@@ -35,6 +35,9 @@ pub struct Record {
     /// The certificate or the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub artefact: Option<ArtefactRef>,
+    /// What the verdict rests on besides the source, as the elaboration of the block found out: stubs, readings, restarts.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rests_on: Vec<String>,
     /// The engine that answered; empty where none did.
     pub engine: String,
     /// What it took; absent where bytes have to be reproducible.
@@ -262,6 +265,8 @@ pub struct Answer {
     pub coverage: Option<Coverage>,
     /// The certificate or the run.
     pub artefact: Option<Artefact>,
+    /// What it rests on besides the source.
+    pub rests_on: Vec<String>,
     /// The engine.
     pub engine: String,
     /// What it took.
@@ -272,7 +277,7 @@ impl Answer {
     /// An answer that no engine gave.
     #[must_use]
     pub const fn without_engine(verdict: Verdict) -> Self {
-        Self { verdict, coverage: None, artefact: None, engine: String::new(), effort: None }
+        Self { verdict, coverage: None, artefact: None, rests_on: Vec::new(), engine: String::new(), effort: None }
     }
 }
 
@@ -342,6 +347,7 @@ impl Record {
             verdict: answer.verdict.clone(),
             coverage: answer.coverage.clone(),
             artefact: answer.artefact.as_ref().map(Artefact::reference),
+            rests_on: answer.rests_on.clone(),
             engine: answer.engine.clone(),
             effort: answer.effort,
             origin,

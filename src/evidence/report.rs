@@ -209,7 +209,7 @@ fn assumptions(input: &Input<'_>, out: &mut String) {
     out.push_str("## Assumptions and stubs\n\n");
     let mut by_text: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for record in input.records {
-        for text in &record.claim.assumptions {
+        for text in record.claim.assumptions.iter().chain(&record.rests_on) {
             by_text.entry(text).or_default().push(record.claim.subject());
         }
     }

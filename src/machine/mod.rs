@@ -3,6 +3,7 @@
 
 pub mod chart;
 pub mod elaborate;
+pub mod fixed;
 pub mod interpret;
 pub mod program;
 pub mod standard;

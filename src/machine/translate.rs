@@ -31,7 +31,6 @@ mod text;
 use super::program::Program;
 use crate::logic::system::System;
 use crate::logic::term::Term;
-use crate::semantics::encode::Reals;
 pub use crate::semantics::encode::Unsupported;
 use crate::semantics::expr::Fault;
 use crate::text::Place;
@@ -42,8 +41,6 @@ pub struct Options {
     /// How often a loop's body may be done in one execution of the loop, a `FOR` with constant bounds as often as they say:
     /// as for the interpreter.
     pub loop_limit: u64,
-    /// How `REAL` is read.
-    pub reals: Reals,
     /// How many statements are executed for one cycle, unrolled loops and calls included, before the program is too large.
     pub step_limit: u64,
     /// How many terms there may be before the program is too large.
@@ -52,7 +49,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { loop_limit: 1_000, reals: Reals::Ieee, step_limit: 2_000_000, term_limit: 5_000_000 }
+        Self { loop_limit: 1_000, step_limit: 2_000_000, term_limit: 5_000_000 }
     }
 }
 

@@ -35,6 +35,7 @@ pub fn of(project: &Project, verified: &Verified) -> Answer {
         verdict,
         coverage: None,
         artefact,
+        rests_on: verified.assumptions.clone(),
         engine: verified.engine.to_owned(),
         effort: Some(Effort { milliseconds }),
     }

@@ -8,6 +8,7 @@ use crate::logic::blast::blast;
 use crate::logic::system::System;
 use crate::logic::write;
 use crate::machine::elaborate::{self, elaborate};
+use crate::machine::fixed;
 use crate::machine::translate::{self, Translated, translate};
 use crate::prove::decide::together;
 use crate::text::Place;
@@ -46,9 +47,12 @@ pub fn system(project: &Project, unit: ItemId) -> Result<Translated, Vec<String>
         stubs: asked.stubs.iter().map(|(_, stub)| stub.clone()).collect(),
         ..default
     };
-    let program = elaborate(&project.catalogue, &project.names, unit, &options).map_err(|list| {
+    let mut program = elaborate(&project.catalogue, &project.names, unit, &options).map_err(|list| {
         list.into_iter().map(|one| located(project, one.place, &one.message, &one.help)).collect::<Vec<_>>()
     })?;
+    if let Some(reading) = asked.fixed {
+        fixed::read(&mut program, reading);
+    }
     let options = translate::Options { loop_limit: asked.loop_limit, ..translate::Options::default() };
     translate(&program, &options)
         .map_err(|one| vec![located(project, one.place, &format!("{} is not modelled", one.what), "")])

@@ -78,6 +78,8 @@ pub struct Asked {
     pub strict: bool,
     /// How often a loop without constant bounds may be done.
     pub loop_limit: u64,
+    /// How reals are read, if not as IEEE 754.
+    pub fixed: Option<crate::semantics::fixed::Reading>,
     /// What stands for blocks that have no source, and what the user calls each.
     pub stubs: Vec<(String, crate::machine::elaborate::Stub)>,
 }

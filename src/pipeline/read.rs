@@ -94,6 +94,7 @@ fn asked(fs: &dyn FileSystem, settings: &Settings) -> Asked {
         constants: constants.map(|(name, value)| (name.clone(), format!("{value:?}"))).collect(),
         strict: settings.verify.options.strict,
         loop_limit: settings.verify.loop_limit,
+        fixed: settings.verify.fixed,
         stubs: settings.verify.stubs.iter().filter_map(stub).collect(),
     }
 }

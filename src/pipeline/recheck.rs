@@ -12,6 +12,7 @@ use crate::evidence::record::{Artefact, ArtefactKind, Claim, Record};
 use crate::machine::elaborate::Stub;
 use crate::recheck::invariant::{self, Stop};
 use crate::recheck::replay::{End, Environment};
+use crate::semantics::fixed::Reading;
 use crate::source::Memory;
 use crate::table::model::Quantity;
 
@@ -73,6 +74,7 @@ fn read(files: &BTreeMap<String, Vec<u8>>, claim: &Claim) -> Result<Project, Str
     project.asked = Asked {
         strict: claim.options.contains_key("strict"),
         loop_limit: claim.options.get("loop-limit").and_then(|limit| limit.parse().ok()).unwrap_or(1_000),
+        fixed: claim.options.get("fixed").map(|text| Reading::parse(text)).transpose()?,
         stubs: claim.options.iter().filter_map(|(name, text)| stub(name, text)).collect(),
         ..project.asked
     };
@@ -148,7 +150,7 @@ fn run(project: &Project, table: usize, artefact: &Artefact) -> Result<(), Strin
             .repeats(&environment, from)
             .map_err(|error| format!("the run does not go on for ever when it is played again: {error}"));
     }
-    match ready.replay(&environment).end {
+    match ready.replay(&environment).map_err(|missing| missing.to_string())?.end {
         End::Lost(_) | End::Fault(_) => Ok(()),
         other => Err(format!("the run does not violate the table when it is played again: {other:?}")),
     }

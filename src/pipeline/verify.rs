@@ -10,7 +10,7 @@ use crate::library::ItemId;
 use crate::logic::system::System;
 use crate::machine::elaborate::{self, elaborate};
 use crate::machine::program::{Program, SlotId};
-use crate::machine::{interpret, translate};
+use crate::machine::{fixed, interpret, translate};
 use crate::prove::decide::{Choice, Decision, decide};
 use crate::prove::engine::{Cancel, Progress};
 use crate::prove::product::{Parts, Product, product};
@@ -18,9 +18,8 @@ use crate::prove::strict::{repeated_from, strict};
 use crate::prove::verdict::{FailedRow, Loss, Reason, Run, Verdict};
 use crate::recheck::invariant::{self, Rejection, Stop};
 use crate::recheck::lasso;
-use crate::recheck::replay::{End, Environment, Replay, Subject, replay};
+use crate::recheck::replay::{End, Environment, Missing, Replay, Subject, replay};
 use crate::recheck::strict::extend;
-use crate::semantics::encode::Reals;
 use crate::table::automaton::{Automaton, NoAutomaton};
 use crate::table::bind::{BoundTable, bind};
 use crate::table::{AttachedTable, Table};
@@ -148,8 +147,10 @@ impl Ready {
     }
 
     /// Plays `environment` on the interpreter and the game.
-    #[must_use]
-    pub fn replay(&self, environment: &Environment) -> Replay {
+    ///
+    /// # Errors
+    /// Where the table names a variable that the block does not have.
+    pub fn replay(&self, environment: &Environment) -> Result<Replay, Missing> {
         replay(&self.subject(), environment)
     }
 
@@ -201,6 +202,9 @@ pub fn asked(project: &Project, table: &Table) -> (u64, BTreeMap<String, String>
     if asked.strict {
         options.insert("strict".to_owned(), "true".to_owned());
     }
+    if let Some(reading) = asked.fixed {
+        options.insert("fixed".to_owned(), reading.written());
+    }
     options.extend(asked.constants.iter().map(|(name, value)| (format!("const {name}"), value.clone())));
     let stubs = asked.stubs.iter().map(|(name, stub)| {
         let text = if stub.arbitrary { "arbitrary".to_owned() } else { stub.text.clone() };
@@ -215,7 +219,7 @@ fn reason(message: impl Into<String>, help: impl Into<String>) -> Reason {
 }
 
 fn prepare(project: &Project, attached: &AttachedTable, cycle_time: u64) -> Result<Ready, Verdict> {
-    let (unit, table) = bound(project, attached)?;
+    let (unit, mut table) = bound(project, attached)?;
     let automaton = Automaton::build(&attached.table).map_err(|error| no_automaton(error, &attached.table))?;
     let is_strict = project.asked.strict || attached.table.options.strict;
     if is_strict && !automaton.ends {
@@ -229,18 +233,21 @@ fn prepare(project: &Project, attached: &AttachedTable, cycle_time: u64) -> Resu
         stubs: project.asked.stubs.iter().map(|(_, stub)| stub.clone()).collect(),
         ..elaborate::Options::default()
     };
-    let program = elaborate(&project.catalogue, &project.names, unit, &options).map_err(|list| {
+    let mut program = elaborate(&project.catalogue, &project.names, unit, &options).map_err(|list| {
         let reasons = list.into_iter().map(|one| Reason { message: one.message, help: one.help, place: one.place });
         Verdict::Unsupported(reasons.collect())
     })?;
+    if let Some(reading) = project.asked.fixed {
+        fixed::read(&mut program, reading);
+        table.read_in_fixed_point(reading);
+    }
     let loop_limit = project.asked.loop_limit;
     let options = translate::Options { loop_limit, ..translate::Options::default() };
     let translated = translate::translate(&program, &options).map_err(|unsupported| {
         let message = format!("{} is not modelled", unsupported.what);
         Verdict::Unsupported(vec![Reason { message, help: String::new(), place: unsupported.place }])
     })?;
-    let parts =
-        Parts { program: &program, translated: &translated, table: &table, automaton: &automaton, reals: Reals::Ieee };
+    let parts = Parts { program: &program, translated: &translated, table: &table, automaton: &automaton };
     let product = product(&parts).map_err(Verdict::Unsupported)?;
     let strict = (is_strict && !automaton.is_bounded()).then(|| strictly(&product, &translated.begin));
     Ok(Ready { program: Arc::new(program), table: Arc::new(table), automaton, product, strict, loop_limit })
@@ -357,7 +364,14 @@ fn confirm_run(ready: &Ready, choice: &Choice, made: &mut Verified) {
         slots: ready.product.inputs.clone(),
         inputs: choice.inputs.iter().map(|inputs| inputs[..ready.product.inputs.len()].to_vec()).collect(),
     };
-    let replay = ready.replay(&environment);
+    let replay = match ready.replay(&environment) {
+        Ok(replay) => replay,
+        Err(missing) => {
+            made.internal = Some(format!("the run of `{}` cannot be replayed: {missing}", made.engine));
+            made.verdict = Verdict::Bounded(0);
+            return;
+        }
+    };
     if !matches!(replay.end, End::Lost(_) | End::Fault(_))
         && let Some(strict) = &ready.strict
         && let Some(from) = repeated_from(&strict.product, choice)
@@ -383,14 +397,18 @@ fn confirm_run(ready: &Ready, choice: &Choice, made: &mut Verified) {
 /// Replays a run that comes back to an earlier state in its last cycle; that cycle is not part of it.
 fn confirm_repetition(ready: &Ready, mut environment: Environment, from: usize, made: &mut Verified) {
     environment.inputs.pop();
-    if let Err(error) = ready.repeats(&environment, from) {
-        made.internal =
-            Some(format!("the run of `{}` does not go on for ever when it is replayed: {error}", made.engine));
-        made.verdict = Verdict::Bounded(0);
-        return;
+    let replayed = ready.repeats(&environment, from);
+    let replayed = replayed.and_then(|()| ready.replay(&environment).map_err(|missing| missing.to_string()));
+    match replayed {
+        Ok(replay) => made.replay = Some(replay),
+        Err(error) => {
+            made.internal =
+                Some(format!("the run of `{}` does not go on for ever when it is replayed: {error}", made.engine));
+            made.verdict = Verdict::Bounded(0);
+            return;
+        }
     }
     let loss = Loss::NeverEnds(from);
-    made.replay = Some(ready.replay(&environment));
     let Environment { globals, inputs, .. } = environment;
     made.verdict = Verdict::Violated(Box::new(Run { globals, inputs, loss }));
 }

@@ -61,7 +61,7 @@ impl<'a> Meeting<'a> {
                     self.leaf(leaf, assumptions);
                 }
                 let leaves = &self.leaves;
-                let term = holds(&mut self.pool, self.parts.reals, constraint, &mut |leaf| {
+                let term = holds(&mut self.pool, constraint, &mut |leaf| {
                     leaves[&(*leaf, begins(self.parts, *leaf, assumptions))]
                 });
                 all = match (all, term) {

@@ -19,7 +19,7 @@ use crate::logic::system::{Labelled, State, System};
 use crate::logic::term::{Pool, Term};
 use crate::machine::program::{NamedVariable, Program, Role, SlotId};
 use crate::machine::translate::Translated;
-use crate::semantics::encode::{Reals, encode};
+use crate::semantics::encode::encode;
 use crate::semantics::expr::Expr;
 use crate::table::automaton::encode::{Encoding, Sites, encode as encode_game};
 use crate::table::automaton::{Automaton, Site};
@@ -48,8 +48,6 @@ pub struct Parts<'a> {
     pub table: &'a BoundTable,
     /// The table's automaton.
     pub automaton: &'a Automaton,
-    /// How `REAL` is read.
-    pub reals: Reals,
 }
 
 /// Where in the cycle a value is taken.
@@ -222,7 +220,7 @@ fn depths(table: &BoundTable) -> BTreeMap<usize, u32> {
 fn constrain(parts: &Parts<'_>, system: &mut System, leaves: &Leaves) -> Result<(), Vec<Reason>> {
     for global in &parts.table.globals {
         let Some(constraint) = &global.constraint else { continue };
-        let term = holds(&mut system.pool, parts.reals, constraint, &mut |leaf| leaves.term(leaf, Moment::End))
+        let term = holds(&mut system.pool, constraint, &mut |leaf| leaves.term(leaf, Moment::End))
             .map_err(|reason| vec![reason])?;
         let name = format!("the constraint of `{}`", global.name);
         system.constraints.push(Labelled { term, name, origin: Some(global.place) });
@@ -257,11 +255,10 @@ fn constrain(parts: &Parts<'_>, system: &mut System, leaves: &Leaves) -> Result<
 /// Whether a constraint holds; where it faults, it does not.
 pub(super) fn holds(
     pool: &mut Pool,
-    reals: Reals,
     constraint: &Expr<Leaf>,
     leaf: &mut dyn FnMut(&Leaf) -> Term,
 ) -> Result<Term, Reason> {
-    let encoded = encode(pool, reals, constraint, &mut |_, l| leaf(l)).map_err(|unsupported| Reason {
+    let encoded = encode(pool, constraint, &mut |_, l| leaf(l)).map_err(|unsupported| Reason {
         message: format!("{} is not modelled", unsupported.what),
         help: String::new(),
         place: unsupported.place.or(constraint.place),
@@ -290,7 +287,7 @@ impl Rows<'_> {
         let moment = if assumptions { Moment::Begin } else { Moment::End };
         let mut all = pool.truth(true);
         for constraint in self.parts.table.constraints(row, assumptions, site.first) {
-            match holds(pool, self.parts.reals, constraint, &mut |leaf| self.leaves.term(leaf, moment)) {
+            match holds(pool, constraint, &mut |leaf| self.leaves.term(leaf, moment)) {
                 Ok(mut term) => {
                     if assumptions && self.leaves.reads_end(constraint) {
                         term = pool.or(term, self.parts.translated.fault);

@@ -5,13 +5,15 @@
 //! that cells look back to. Between the two equal ones the environment must have stayed in no open end: see
 //! [`OpenEnd`](crate::table::automaton::OpenEnd).
 
-use super::replay::{End, Environment, Player, Subject};
+use super::replay::{End, Environment, Missing, Player, Subject};
 use crate::machine::program::SlotId;
 use crate::table::automaton::game::Game;
 
 /// Why a run is not believed to go on for ever.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Rejection {
+    /// The table names a variable that the block does not have.
+    Missing(Missing),
     /// Nothing is repeated.
     Empty,
     /// A cycle of the run, or of its repetition, ends the game.
@@ -43,7 +45,7 @@ pub fn check(subject: &Subject<'_>, environment: &Environment, from: usize, slot
     let Some((stem, round)) = environment.inputs.split_at_checked(from).filter(|(_, round)| !round.is_empty()) else {
         return Err(Rejection::Empty);
     };
-    let mut player = Player::new(subject, environment);
+    let mut player = Player::new(subject, environment).map_err(Rejection::Missing)?;
     let mut fair = vec![0; player.game.fair().len()];
     play(&mut player, stem, &mut fair)?;
     let mut marks = vec![mark(&player, slots, &fair)];

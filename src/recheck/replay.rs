@@ -83,14 +83,29 @@ pub struct Failed {
     pub columns: Vec<usize>,
 }
 
+/// A variable of the table that the block does not have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Missing {
+    /// Its path.
+    pub path: String,
+}
+
+impl std::fmt::Display for Missing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "the block has no variable `{}`", self.path)
+    }
+}
+
 /// Plays `environment` against the block.
-#[must_use]
-pub fn replay(subject: &Subject<'_>, environment: &Environment) -> Replay {
-    let mut player = Player::new(subject, environment);
+///
+/// # Errors
+/// Where the table names a variable that the block does not have.
+pub fn replay(subject: &Subject<'_>, environment: &Environment) -> Result<Replay, Missing> {
+    let mut player = Player::new(subject, environment)?;
     for inputs in &environment.inputs {
         player.cycle(inputs);
     }
-    player.run
+    Ok(player.run)
 }
 
 /// A run that is being replayed.
@@ -104,17 +119,17 @@ pub(super) struct Player<'a> {
 }
 
 impl<'a> Player<'a> {
-    pub(super) fn new(subject: &'a Subject<'a>, environment: &'a Environment) -> Self {
+    pub(super) fn new(subject: &'a Subject<'a>, environment: &'a Environment) -> Result<Self, Missing> {
         let game = Game::new(subject.automaton);
         let end = if *game.standing() == Standing::Ended { End::Ended } else { End::Open };
-        Self {
+        Ok(Self {
             subject,
             environment,
-            slots: slots(subject),
+            slots: slots(subject)?,
             machine: Interpreter::with(subject.program, &subject.options),
             game,
             run: Replay { cycles: Vec::new(), end },
-        }
+        })
     }
 
     /// Plays one cycle, unless the run is over.
@@ -167,11 +182,11 @@ fn row(subject: &Subject<'_>, site: Site) -> usize {
     subject.automaton.leaves[site.leaf].row
 }
 
-/// The slot of each variable of the table; the machine's own slot 0 where it has none, which no verdict is given for.
-fn slots(subject: &Subject<'_>) -> Vec<SlotId> {
+/// The slot of each variable of the table.
+fn slots(subject: &Subject<'_>) -> Result<Vec<SlotId>, Missing> {
     let slot = |path: &str| {
         let named = subject.program.variables.iter().find(|variable| variable.path.eq_ignore_ascii_case(path));
-        named.map_or(SlotId(0), |variable| variable.slot)
+        named.map(|variable| variable.slot).ok_or_else(|| Missing { path: path.to_owned() })
     };
     subject.table.variables.iter().map(|variable| slot(&variable.path)).collect()
 }

@@ -4,7 +4,7 @@
 //! fault. Of the faults reported, the first one whose condition holds is the one that occurs; values that are made from
 //! a part that faults mean nothing.
 //!
-//! `REAL` is IEEE 754, or, where [`Reals::Fixed`] says so, a scaled integer: an assumption that a verdict then carries.
+//! `REAL` is IEEE 754; in a program that is read in fixed point ([`super::fixed`]) there are scaled integers in its place.
 
 mod convert;
 mod fixed;
@@ -13,44 +13,8 @@ mod operator;
 pub use convert::resize;
 
 use super::expr::{Expr, ExprKind, Fault};
-use super::scalar::Scalar;
 use crate::logic::term::{self, Pool, Term};
 use crate::text::Place;
-
-/// How `REAL` and `LREAL` are read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Reals {
-    /// Bit for bit.
-    #[default]
-    Ieee,
-    /// As a signed integer of so many bits, at most 32, that counts 10^-digits; results outside saturate.
-    Fixed {
-        /// Decimal digits behind the point, at most 9.
-        digits: u32,
-        /// Bits.
-        width: u32,
-    },
-}
-
-impl Reals {
-    /// How many bits a value of the type has in this reading.
-    #[must_use]
-    pub const fn width(self, scalar: Scalar) -> u32 {
-        match (self, scalar) {
-            (Self::Fixed { width, .. }, Scalar::Real(_)) => width,
-            _ => scalar.width(),
-        }
-    }
-
-    /// The bits of a constant of the type in this reading.
-    #[must_use]
-    pub fn constant(self, scalar: Scalar, bits: u64) -> u64 {
-        match (self, scalar) {
-            (Self::Fixed { digits, width }, Scalar::Real(format)) => fixed::constant(bits, format, digits, width),
-            _ => bits & term::mask(scalar.width()),
-        }
-    }
-}
 
 /// What has no meaning as a term.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,11 +32,6 @@ pub trait Context<L> {
 
     /// Where the terms are made.
     fn pool(&mut self) -> &mut Pool;
-
-    /// How reals are read.
-    fn reals(&self) -> Reals {
-        Reals::Ieee
-    }
 
     /// The value of a leaf.
     ///
@@ -103,9 +62,8 @@ pub trait Context<L> {
 pub fn value<L, C: Context<L>>(context: &mut C, expr: &Expr<L>) -> Result<Term, C::Error> {
     match &expr.kind {
         ExprKind::Const(bits) => {
-            let reals = context.reals();
-            let (width, bits) = (reals.width(expr.scalar), reals.constant(expr.scalar, *bits));
-            Ok(context.pool().constant(width, bits))
+            let width = expr.scalar.width();
+            Ok(context.pool().constant(width, *bits & term::mask(width)))
         }
         ExprKind::Read(leaf) => context.read(leaf, expr),
         ExprKind::Address(leaf) => context.address(leaf, expr),
@@ -188,12 +146,11 @@ pub struct Encoded {
 /// Where a part has no term; the address of a leaf never has one here.
 pub fn encode<L>(
     pool: &mut Pool,
-    reals: Reals,
     expr: &Expr<L>,
     leaf: &mut impl FnMut(&mut Pool, &L) -> Term,
 ) -> Result<Encoded, Unsupported> {
     let guard = pool.truth(true);
-    let mut plain = Plain { pool, reals, leaf, guard, faults: Vec::new() };
+    let mut plain = Plain { pool, leaf, guard, faults: Vec::new() };
     let value = value(&mut plain, expr)?;
     Ok(Encoded { value, faults: plain.faults })
 }
@@ -201,7 +158,6 @@ pub fn encode<L>(
 /// The context of an expression whose leaves are values.
 struct Plain<'a, F> {
     pool: &'a mut Pool,
-    reals: Reals,
     leaf: &'a mut F,
     guard: Term,
     faults: Vec<Guarded>,
@@ -212,10 +168,6 @@ impl<L, F: FnMut(&mut Pool, &L) -> Term> Context<L> for Plain<'_, F> {
 
     fn pool(&mut self) -> &mut Pool {
         self.pool
-    }
-
-    fn reals(&self) -> Reals {
-        self.reals
     }
 
     fn read(&mut self, leaf: &L, _: &Expr<L>) -> Result<Term, Unsupported> {

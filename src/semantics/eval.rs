@@ -5,6 +5,7 @@
 //! always the same quiet NaN (positive, payload zero), since IEEE 754 leaves its bits open.
 
 mod convert;
+mod fixed;
 mod real;
 #[cfg(test)]
 mod tests;
@@ -101,6 +102,7 @@ pub fn unary(op: Op, to: Scalar, from: Scalar, value: u64) -> u64 {
         Op::Reinterpret => mask(to, value),
         _ => match to {
             Scalar::Real(width) => real::unary(op, width, value),
+            Scalar::Fixed { width, .. } => fixed::unary(op, width, value),
             _ => whole_unary(op, to, value),
         },
     }
@@ -129,6 +131,9 @@ pub fn binary(op: Op, of: Scalar, left: u64, right: u64) -> Result<u64, Fault> {
         Op::Shl | Op::Shr | Op::Sar | Op::Rol | Op::Ror => Ok(shift(op, of, left, right)),
         _ => match of {
             Scalar::Real(width) => Ok(real::binary(op, width, left, right)),
+            Scalar::Fixed { digits, width } if !matches!(op, Op::Eq | Op::Lt | Op::Le) => {
+                Ok(fixed::binary(op, digits, width, left, right))
+            }
             _ => whole_binary(op, of, left, right),
         },
     }

@@ -4,6 +4,7 @@
 pub mod encode;
 pub mod eval;
 pub mod expr;
+pub mod fixed;
 pub mod scalar;
 pub mod show;
 pub mod typing;

@@ -16,6 +16,14 @@ pub enum Scalar {
     },
     /// `REAL` (32 bits) and `LREAL` (64 bits): IEEE 754.
     Real(u32),
+    /// `REAL` and `LREAL` in a fixed-point reading: a signed number that counts 10^-digits. No text declares it; see
+    /// [`super::fixed`].
+    Fixed {
+        /// Decimal digits behind the point, at most 9.
+        digits: u32,
+        /// Bits, at most 32.
+        width: u32,
+    },
     /// `TIME` (32 bits, unsigned milliseconds) and `LTIME` (64 bits, unsigned nanoseconds), as CODESYS and TwinCAT have them.
     Time(u32),
     /// `DATE`, `DATE_AND_TIME` (seconds since 1970-01-01) and `TIME_OF_DAY` (milliseconds since midnight): 32 bits; their
@@ -43,7 +51,7 @@ impl Scalar {
         match self {
             Self::Bool => 1,
             Self::Bits(width) | Self::Real(width) | Self::Time(width) | Self::Date(_, width) => width,
-            Self::Int { width, .. } => width,
+            Self::Int { width, .. } | Self::Fixed { width, .. } => width,
             Self::Ref => 32,
         }
     }
@@ -51,7 +59,7 @@ impl Scalar {
     /// Whether it is compared and divided as a signed integer.
     #[must_use]
     pub const fn is_signed(self) -> bool {
-        matches!(self, Self::Int { signed: true, .. })
+        matches!(self, Self::Int { signed: true, .. } | Self::Fixed { .. })
     }
 
     /// The bits of `value` as a number: signed where the type is.

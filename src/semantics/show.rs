@@ -53,6 +53,9 @@ pub fn type_named(name: &str) -> Option<Scalar> {
 /// The name of a type.
 #[must_use]
 pub fn type_name(scalar: Scalar) -> &'static str {
+    if let Scalar::Fixed { .. } = scalar {
+        return "REAL";
+    }
     TYPES.iter().find(|(_, other)| *other == scalar).map_or("POINTER", |(name, _)| name)
 }
 
@@ -68,6 +71,7 @@ pub fn literal(kind: &Kind, bits: u64) -> String {
         Scalar::Int { .. } => kind.scalar.number(bits).to_string(),
         Scalar::Real(32) => real(f64::from(f32::from_bits(bits as u32)), &f32::from_bits(bits as u32)),
         Scalar::Real(_) => real(f64::from_bits(bits), &f64::from_bits(bits)),
+        Scalar::Fixed { digits, .. } => super::fixed::literal(digits, kind.scalar.number(bits)),
         Scalar::Time(32) => format!("T#{}", duration(bits.into(), 1_000_000)),
         Scalar::Time(_) => format!("LTIME#{}", duration(bits.into(), 1)),
         Scalar::Date(date, width) => moment(date, width, bits),
@@ -156,6 +160,7 @@ pub fn parse(kind: &Kind, text: &str) -> Option<u64> {
         Scalar::Bool => truth(text),
         Scalar::Real(32) => Some(u64::from(float(text)?.parse::<f32>().ok()?.to_bits())),
         Scalar::Real(_) => Some(float(text)?.parse::<f64>().ok()?.to_bits()),
+        Scalar::Fixed { digits, width } => super::fixed::parse(digits, width, &float(text)?),
         Scalar::Time(32) if text.contains('#') => u32::try_from(nanos(text)? / 1_000_000).ok().map(u64::from),
         Scalar::Time(_) if text.contains('#') => u64::try_from(nanos(text)?).ok(),
         Scalar::Date(..) if text.contains('#') => None,

@@ -25,6 +25,7 @@ codes! {
     DOCUMENT_TYPE "document-type" Warning;
     EMPTY_CONTAINER "empty-container" Warning;
     UNREAD_DIALECT "unread-dialect" Warning;
+    UNREAD_CHART "unread-chart" Warning;
     UNKNOWN_OBJECT "unknown-object" Info;
     PROJECT_NAMES_MISSING_FILE "project-names-missing-file" Warning;
     NOT_IN_PROJECT "not-in-project" Warning;

@@ -14,7 +14,7 @@ use crate::logic::sat::cadi::Cadical;
 use crate::logic::sat::encode::Encoder;
 use crate::logic::sat::{Solver, Stop};
 use crate::logic::term::{Pool, Term};
-use crate::semantics::encode::{Reals, encode};
+use crate::semantics::encode::encode;
 use crate::semantics::scalar::Scalar;
 use crate::semantics::show::{self, Kind};
 
@@ -153,7 +153,7 @@ impl<'b> Puzzle<'b> {
             self.moment(moment);
         }
         let terms = &self.terms;
-        let encoded = encode(&mut self.pool, Reals::Ieee, constraint, &mut |_, leaf| terms[&place(leaf)]);
+        let encoded = encode(&mut self.pool, constraint, &mut |_, leaf| terms[&place(leaf)]);
         self.stretches = stretches;
         let encoded = encoded.ok()?;
         let fault = self.pool.any(encoded.faults.iter().map(|fault| fault.condition));

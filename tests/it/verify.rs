@@ -16,8 +16,11 @@ fn verify(arguments: &[&str], folder: &Path) -> (i32, Value) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rungbook"));
     let output = command.current_dir(folder).args(["verify", "-q", "--format", "json"]).args(arguments).output();
     let output = output.expect("it runs");
-    let value = serde_json::from_slice(&output.stdout)
-        .unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(&output.stderr)));
+    let value = serde_json::from_slice(&output.stdout).unwrap_or_else(|error| {
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(!said.is_empty(), "{error}");
+        Value::from(said)
+    });
     (output.status.code().unwrap_or(-1), value)
 }
 
@@ -128,4 +131,32 @@ fn obligations_are_written_for_other_checkers() {
     // One bad literal, and no constraints, which not every checker reads.
     assert_eq!((header[0], header[4], header.get(6), header.get(7)), ("aig", "0", Some(&"1"), None));
     assert!(text.lines().any(|line| line.starts_with('l') && line.ends_with("Lamp")), "names are kept: {text}");
+}
+
+#[test]
+fn a_fixed_point_reading_is_an_assumption_of_the_verdict() {
+    let text = "(* Doubles.\n\n   @gtt Doubles\n   | # | in x | out y | dur |\n   |---|---|---|---|\n   \
+                | 1 | [0.0, 100.0] | <= 200.0 | -∞ |\n*)\n\
+                FUNCTION_BLOCK FB_Lamp\nVAR_INPUT x : REAL; END_VAR\nVAR_OUTPUT y : REAL; END_VAR\n\
+                y := x + x;\nEND_FUNCTION_BLOCK\n";
+    let folder = folder(text);
+    let (code, answer) = verify(&["--fixed", "2,24"], folder.path());
+    let table = &answer["tables"][0];
+    let assumption = "`REAL` and `LREAL` are read in fixed point: 2 decimal digits in 24 bits, not IEEE 754";
+    assert_eq!((code, &table["verdict"]), (0, &Value::from("verified")), "{answer:#}");
+    assert_eq!(table["assumptions"], serde_json::json!([assumption]));
+    // The same is kept with the verdict, and another reading is another question.
+    let (_, again) = verify(&["--fixed", "2,24"], folder.path());
+    assert_eq!(
+        (&again["tables"][0]["known"], &again["tables"][0]["assumptions"][0]),
+        (&true.into(), &assumption.into())
+    );
+    assert_eq!(verify(&["--fixed", "3,24"], folder.path()).1["tables"][0]["known"], false);
+    // A violation is replayed in the same reading.
+    fs::write(folder.path().join("FB_Lamp.st"), text.replace("x + x", "x + x + 0.01")).expect("written");
+    fs::write(folder.path().join("rungbook.toml"), "[verify]\nfixed = { digits = 2, width = 24 }\n").expect("written");
+    let (code, broken) = verify(&[], folder.path());
+    assert_eq!((code, &broken["tables"][0]["verdict"]), (1, &Value::from("violated")), "{broken:#}");
+    assert_eq!(broken["tables"][0]["run"]["end"]["rows"][0]["cells"][0]["seen"], "200.01", "{broken:#}");
+    assert_eq!(verify(&["--fixed", "9,16"], folder.path()).0, 2);
 }

@@ -55,6 +55,7 @@ fn facts_of(answer: &Answer) -> Vec<(String, String)> {
     if !answer.engine.is_empty() {
         push("Engine", answer.engine.clone());
     }
+    answer.rests_on.iter().for_each(|text| push("Assumes", text.clone()));
     if let Some(reference) = answer.artefact.as_ref().map(crate::evidence::record::Artefact::reference) {
         let hex = reference.digest.hex();
         push("Evidence", format!("{} {}", reference.kind.folder().trim_end_matches('s'), &hex[..12.min(hex.len())]));

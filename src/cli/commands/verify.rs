@@ -18,6 +18,7 @@ use crate::library::names::fold;
 use crate::pipeline::verify::Verified;
 use crate::pipeline::{self, Project, answer, export, records};
 use crate::prove::engine::Cancel;
+use crate::semantics::fixed::Reading;
 use crate::source::{Disk, FileSystem, Memory};
 use crate::table::read;
 
@@ -90,6 +91,10 @@ fn apply(args: &VerifyArgs, settings: &mut Settings) -> Result<(), Failure> {
     }
     options.memory = args.memory.unwrap_or(options.memory);
     options.strict |= args.strict;
+    if let Some(text) = &args.fixed {
+        let reading = Reading::parse(text).map_err(|message| Failure(format!("`--fixed {text}`: {message}")))?;
+        settings.verify.fixed = Some(reading);
+    }
     settings.verify.jobs = args.jobs.unwrap_or(settings.verify.jobs);
     if let Some(text) = &args.cycle {
         let cycle = read::time(text).filter(|nanos| *nanos > 0);

@@ -86,6 +86,9 @@ fn told(project: &Project, line: &Line, colour: bool) -> String {
         }
         _ => {}
     }
+    for assumption in &line.answer.rests_on {
+        out.push_str(&format!("            assumes: {assumption}\n"));
+    }
     if let Some(internal) = line.verified.as_ref().and_then(|verified| verified.internal.as_ref()) {
         out.push_str(&format!("            internal error: {internal}\n"));
     }
@@ -193,7 +196,7 @@ fn one(project: &Project, line: &Line) -> Value {
         "engine": line.answer.engine,
         "seconds": line.answer.effort.map(|effort| effort.milliseconds as f64 / 1000.0),
         "cycle_ns": line.verified.as_ref().map(|verified| verified.cycle_time),
-        "assumptions": line.verified.as_ref().map(|verified| &verified.assumptions),
+        "assumptions": line.answer.rests_on,
         "internal_error": line.verified.as_ref().and_then(|verified| verified.internal.as_ref()),
         "known": line.verified.is_none(),
         "run": run,

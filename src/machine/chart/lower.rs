@@ -174,8 +174,9 @@ impl Lowering<'_> {
                 Qualifier::Reset => {}
                 Qualifier::NonStored => on.push(active),
                 Qualifier::Pulse => on.push(and(active, not(was))),
-                Qualifier::PulseRising => pulses.push(and(active, not(was))),
-                Qualifier::PulseFalling => pulses.push(and(not(active), was)),
+                Qualifier::Active => pulses.push(active),
+                Qualifier::PulseRising | Qualifier::OnEntry => pulses.push(and(active, not(was))),
+                Qualifier::PulseFalling | Qualifier::OnExit => pulses.push(and(not(active), was)),
                 _ => on.push(self.kept(&format!("{action}${number}"), association, &reset)),
             }
         }

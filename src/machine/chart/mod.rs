@@ -11,7 +11,8 @@
 //! 3. *Step times.* `T` of a step is zero in the call that enters it, goes on while it is active, and stands afterwards.
 //! 4. *Actions* (§6.7.4, the block ACTION_CONTROL). From the steps' flags and the qualifiers follows whether an action is on.
 //!    A Boolean variable is set to that. A body runs while its action is on, and once more in the call in which it goes off (the final
-//!    scan); `P1` and `P0` run it once.
+//!    scan); `P1` and `P0` run it once. The steps' own actions of CODESYS and TwinCAT come first: those of steps that are left, of steps
+//!    that are entered, of steps that are active.
 //!
 //! So an input that lets a transition fire acts on the step behind it in the same call.
 
@@ -97,7 +98,7 @@ pub struct Association {
     pub place: Option<Place>,
 }
 
-/// An action qualifier, IEC 61131-3, table 57.
+/// An action qualifier, IEC 61131-3, table 57, or one of ours for what CODESYS and TwinCAT call a step's own actions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Qualifier {
     /// While the step is active.
@@ -122,6 +123,12 @@ pub enum Qualifier {
     DelayedStored,
     /// Until it is reset, but not longer than the time.
     StoredLimited,
+    /// A step's own action of CODESYS and TwinCAT: in the call that leaves the step.
+    OnExit,
+    /// The same, in the call that enters the step.
+    OnEntry,
+    /// The same, in each call that finds the step active; without a final scan.
+    Active,
 }
 
 impl Qualifier {
@@ -140,6 +147,9 @@ impl Qualifier {
             "SD" => Self::StoredDelayed,
             "DS" => Self::DelayedStored,
             "SL" => Self::StoredLimited,
+            "ON_EXIT" => Self::OnExit,
+            "ON_ENTRY" => Self::OnEntry,
+            "ACTIVE" => Self::Active,
             _ => return None,
         })
     }
@@ -148,6 +158,17 @@ impl Qualifier {
     #[must_use]
     pub const fn is_timed(self) -> bool {
         matches!(self, Self::Limited | Self::Delayed | Self::StoredDelayed | Self::DelayedStored | Self::StoredLimited)
+    }
+
+    /// Of a step's own actions, which are done before all others, the place in their order.
+    #[must_use]
+    pub const fn own(self) -> Option<usize> {
+        match self {
+            Self::OnExit => Some(0),
+            Self::OnEntry => Some(1),
+            Self::Active => Some(2),
+            _ => None,
+        }
     }
 
     /// Whether it lasts until it is reset.

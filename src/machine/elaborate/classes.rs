@@ -183,8 +183,8 @@ impl<'c> Elaborator<'c> {
                 Self::append_hidden(&mut layout, last_key(&key), Type::Scalar(Scalar::Bool), item);
             }
         }
-        for (key, type_) in self.chart_fields(item)? {
-            Self::append_hidden(&mut layout, key, type_, item);
+        for (owner, key, type_) in self.chart_fields(item) {
+            Self::append_hidden(&mut layout, key, type_, owner);
         }
         self.method_instances(item, &mut layout)?;
         self.cone.insert(item);

@@ -216,7 +216,7 @@ impl<'c> Elaborator<'c> {
     }
 
     /// Size and alignment.
-    fn bytes(&mut self, type_: &Type) -> Lowered<Option<(u64, u64)>> {
+    pub(super) fn bytes(&mut self, type_: &Type) -> Lowered<Option<(u64, u64)>> {
         Ok(match type_ {
             Type::Text { capacity, wide } => {
                 let unit = if *wide { 2 } else { 1 };

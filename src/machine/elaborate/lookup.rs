@@ -232,6 +232,7 @@ impl<'c> Elaborator<'c> {
             Some('L') => Scalar::Bits(64),
             _ => Scalar::Bool,
         }));
+        self.overlapping(&key, &type_, node)?;
         let values = self.defaults(&type_)?.values;
         let placement =
             super::memory::Placement { name: address.to_owned(), role: Role::State, place: self.place(node) };

@@ -8,6 +8,7 @@
 //! Nothing here stops at the first construct that is not modelled: each is told with its place, and the rest goes on.
 
 mod access;
+mod addresses;
 mod arguments;
 mod calls;
 mod cases;

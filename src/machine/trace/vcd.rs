@@ -51,7 +51,7 @@ fn dump(trace: &Trace, out: &mut Vec<u8>) -> io::Result<()> {
     for signal in &trace.signals {
         let (name, width) = (word(&signal.name), signal.kind.scalar.width());
         codes.push(match signal.kind.scalar {
-            Scalar::Real(_) => writer.add_var(VarType::Real, 64, &name, None)?,
+            Scalar::Real(_) | Scalar::Fixed { .. } => writer.add_var(VarType::Real, 64, &name, None)?,
             _ => writer.add_wire(width, &name)?,
         });
     }
@@ -78,6 +78,10 @@ fn change(writer: &mut vcd::Writer<&mut Vec<u8>>, code: IdCode, scalar: Scalar, 
         Scalar::Bool => writer.change_scalar(code, bits != 0),
         Scalar::Real(32) => writer.change_real(code, f64::from(f32::from_bits(bits as u32))),
         Scalar::Real(_) => writer.change_real(code, f64::from_bits(bits)),
+        Scalar::Fixed { digits, .. } => {
+            let one = 10f64.powi(i32::try_from(digits).unwrap_or(0));
+            writer.change_real(code, scalar.number(bits) as f64 / one)
+        }
         _ => {
             let bit = |at: u32| Value::from(bits >> at & 1 == 1);
             writer.change_vector(code, (0..scalar.width()).rev().map(bit))

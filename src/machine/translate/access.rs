@@ -10,12 +10,12 @@ use crate::semantics::scalar::Scalar;
 impl Executor<'_> {
     /// How many bits a slot has as a term.
     pub(super) fn slot_width(&self, slot: u32) -> Option<u32> {
-        self.program.slots.get(slot as usize).map(|slot| self.options.reals.width(slot.scalar))
+        self.program.slots.get(slot as usize).map(|slot| slot.scalar.width())
     }
 
     /// What an area holds, so many slots further on.
     pub(super) fn load(&mut self, area: &Area, offset: u32, scalar: Scalar) -> Term {
-        let width = self.options.reals.width(scalar);
+        let width = scalar.width();
         self.over_bases(area, &mut |executor, slot| executor.load_cell(slot.wrapping_add(offset), width))
     }
 
@@ -128,7 +128,6 @@ impl Executor<'_> {
     pub(super) fn initial(&mut self, slot: u32) -> Option<Term> {
         let found = self.program.slots.get(slot as usize)?;
         let (scalar, bits) = (found.scalar, found.initial);
-        let reals = self.options.reals;
-        Some(self.pool.constant(reals.width(scalar), reals.constant(scalar, bits)))
+        Some(self.pool.constant(scalar.width(), bits))
     }
 }

@@ -7,7 +7,7 @@ use super::memory::{self, Delta, Memory};
 use super::{Options, Unsupported};
 use crate::logic::term::{Op, Pool, Term, Var};
 use crate::machine::program::{Location, Program};
-use crate::semantics::encode::{Context, Reals};
+use crate::semantics::encode::Context;
 use crate::semantics::expr::{Expr, Fault};
 use crate::text::Place;
 
@@ -274,10 +274,6 @@ impl Context<Location> for Executor<'_> {
 
     fn pool(&mut self) -> &mut Pool {
         &mut self.pool
-    }
-
-    fn reals(&self) -> Reals {
-        self.options.reals
     }
 
     fn read(&mut self, leaf: &Location, at: &Expr<Location>) -> Result<Term, Unsupported> {

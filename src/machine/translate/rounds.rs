@@ -37,12 +37,12 @@ struct Begin {
 pub(super) fn translate(program: &Program, options: &Options) -> Result<Translated, Unsupported> {
     let (initial, faults) = startup(program, options)?;
     if let Some(site) = faults.first() {
-        return Ok(stillborn(program, options, &initial, *site));
+        return Ok(stillborn(program, &initial, *site));
     }
     let count = program.slots.len();
     let mut known = Known { initial, changes: vec![false; count], addresses: vec![BTreeSet::new(); count] };
     for rounds in 1.. {
-        let begin = known.begin(program, options);
+        let begin = known.begin(program);
         let mut executor = Executor::new(program, options, begin.pool.clone(), begin.cells.clone());
         known.share_addresses(&begin, &mut executor);
         executor.enter(false);
@@ -58,7 +58,7 @@ pub(super) fn translate(program: &Program, options: &Options) -> Result<Translat
 /// The memory before the first cycle, and the faults on the way there.
 fn startup(program: &Program, options: &Options) -> Result<(Vec<u64>, Vec<Site>), Unsupported> {
     let mut pool = Pool::default();
-    let cells = program.slots.iter().map(|slot| constant(&mut pool, options, slot, slot.initial)).collect();
+    let cells = program.slots.iter().map(|slot| constant(&mut pool, slot, slot.initial)).collect();
     let mut executor = Executor::new(program, options, pool, cells);
     executor.enter(false);
     executor.block(&program.startup)?;
@@ -71,9 +71,9 @@ fn startup(program: &Program, options: &Options) -> Result<(Vec<u64>, Vec<Site>)
     Ok((initial, executor.sites))
 }
 
-/// The declared value of a slot in the chosen reading.
-fn constant(pool: &mut Pool, options: &Options, slot: &Slot, bits: u64) -> Term {
-    pool.constant(options.reals.width(slot.scalar), options.reals.constant(slot.scalar, bits))
+/// The declared value of a slot.
+fn constant(pool: &mut Pool, slot: &Slot, bits: u64) -> Term {
+    pool.constant(slot.scalar.width(), bits)
 }
 
 /// Whether the environment sets the slot in each cycle.
@@ -83,12 +83,12 @@ const fn is_input(slot: &Slot) -> bool {
 
 impl Known {
     /// Variables for inputs and for what changes, constants for the rest; the clocks have gone on.
-    fn begin(&self, program: &Program, options: &Options) -> Begin {
+    fn begin(&self, program: &Program) -> Begin {
         let mut pool = Pool::default();
         let count = program.slots.len();
         let (mut cells, mut inputs, mut variables) = (Vec::with_capacity(count), vec![None; count], vec![None; count]);
         for (index, slot) in program.slots.iter().enumerate() {
-            let width = options.reals.width(slot.scalar);
+            let width = slot.scalar.width();
             cells.push(if is_input(slot) || self.changes[index] {
                 let variable = pool.variable(width, slot.name.as_str());
                 *(if is_input(slot) { &mut inputs[index] } else { &mut variables[index] }) = Some(variable);
@@ -212,13 +212,13 @@ fn show(system: &mut System, program: &Program, end: &[Term]) {
 }
 
 /// A program whose startup runs into a fault: it never gets further.
-fn stillborn(program: &Program, options: &Options, initial: &[u64], site: Site) -> Translated {
+fn stillborn(program: &Program, initial: &[u64], site: Site) -> Translated {
     let mut system = System::default();
     let cells: Vec<Term> = program
         .slots
         .iter()
         .zip(initial)
-        .map(|(slot, bits)| system.pool.constant(options.reals.width(slot.scalar), *bits))
+        .map(|(slot, bits)| system.pool.constant(slot.scalar.width(), *bits))
         .collect();
     let (yes, no) = (system.pool.truth(true), system.pool.truth(false));
     system.obligations.push(Labelled { term: no, name: name(site.fault).to_owned(), origin: site.place });

@@ -170,7 +170,7 @@ pub fn play(project: &Project, index: usize, options: &Options) -> Result<Outcom
         picker.end(&run);
     }
     let subject = Subject { program: &program, options: interpreter, table: &ready.bound, automaton: &ready.automaton };
-    let replay = replay(&subject, &environment);
+    let replay = replay(&subject, &environment).map_err(|missing| NotPlayed::because(missing.to_string()))?;
     Ok(show::outcome(&ready, &program, &environment, &replay))
 }
 

@@ -1,7 +1,7 @@
 //! Conversions as terms: [`Op::Convert`](super::super::expr::Op::Convert) and `TRUNC`, for each pair of types.
 
 use super::super::scalar::Scalar;
-use super::{Reals, fixed};
+use super::fixed;
 use crate::logic::term::{Op as T, Pool, Term, mask};
 
 /// How many nanoseconds a millisecond has: `TIME` and `LTIME` count these.
@@ -19,12 +19,12 @@ pub fn resize(pool: &mut Pool, term: Term, width: u32, signed: bool) -> Term {
 }
 
 /// A value of one type as one of another.
-pub(super) fn convert(pool: &mut Pool, reals: Reals, from: Scalar, to: Scalar, term: Term) -> Term {
+pub(super) fn convert(pool: &mut Pool, from: Scalar, to: Scalar, term: Term) -> Term {
     match (from, to) {
-        (Scalar::Real(_), _) | (_, Scalar::Real(_)) => match reals {
-            Reals::Ieee => ieee(pool, from, to, term),
-            Reals::Fixed { digits, width } => fixed::convert(pool, digits, width, from, to, term),
-        },
+        (Scalar::Fixed { digits, width }, _) | (_, Scalar::Fixed { digits, width }) => {
+            fixed::convert(pool, digits, width, from, to, term)
+        }
+        (Scalar::Real(_), _) | (_, Scalar::Real(_)) => ieee(pool, from, to, term),
         (_, Scalar::Bool) => {
             let zero = pool.constant(from.width(), 0);
             let is_zero = pool.apply(T::Eq, &[term, zero]);
@@ -66,14 +66,12 @@ fn ieee(pool: &mut Pool, from: Scalar, to: Scalar, term: Term) -> Term {
 }
 
 /// A real toward zero as an integer, which saturates.
-pub(super) fn trunc(pool: &mut Pool, reals: Reals, from: Scalar, to: Scalar, term: Term) -> Term {
-    let Scalar::Real(format) = from else {
-        return convert(pool, reals, from, to, term);
-    };
-    match reals {
-        Reals::Fixed { digits, .. } => fixed::trunc(pool, digits, to, term),
-        Reals::Ieee if to.is_signed() => pool.apply(T::FloatTruncate(to.width()), &[term]),
-        Reals::Ieee => trunc_unsigned(pool, format, to.width(), term),
+pub(super) fn trunc(pool: &mut Pool, from: Scalar, to: Scalar, term: Term) -> Term {
+    match from {
+        Scalar::Fixed { digits, .. } => fixed::trunc(pool, digits, to, term),
+        Scalar::Real(_) if to.is_signed() => pool.apply(T::FloatTruncate(to.width()), &[term]),
+        Scalar::Real(format) => trunc_unsigned(pool, format, to.width(), term),
+        _ => convert(pool, from, to, term),
     }
 }
 

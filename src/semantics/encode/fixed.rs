@@ -18,17 +18,6 @@ const fn largest(width: u32) -> i64 {
     (mask(width - 1)) as i64
 }
 
-/// A constant: the nearest number that there is.
-#[expect(clippy::cast_possible_truncation, reason = "the cast saturates, as the reading does")]
-pub(super) fn constant(bits: u64, format: u32, digits: u32, width: u32) -> u64 {
-    let number = match u32::try_from(bits) {
-        Ok(low) if format == 32 => f64::from(f32::from_bits(low)),
-        _ => f64::from_bits(bits),
-    };
-    let scaled = (number * unit(digits) as f64).round() as i64;
-    scaled.clamp(-largest(width) - 1, largest(width)).cast_unsigned() & mask(width)
-}
-
 /// The operators on reals; `None` where there is none.
 pub(super) fn apply(pool: &mut Pool, op: Op, digits: u32, width: u32, terms: &[Term]) -> Option<Term> {
     Some(match op {
@@ -86,13 +75,13 @@ fn saturate(pool: &mut Pool, term: Term, width: u32) -> Term {
 /// Conversions from and to reals.
 pub(super) fn convert(pool: &mut Pool, digits: u32, width: u32, from: Scalar, to: Scalar, term: Term) -> Term {
     match (from, to) {
-        (Scalar::Real(_), Scalar::Real(_)) => term,
-        (Scalar::Real(_), Scalar::Bool) => {
+        (Scalar::Fixed { .. }, Scalar::Fixed { .. }) => term,
+        (Scalar::Fixed { .. }, Scalar::Bool) => {
             let zero = pool.constant(width, 0);
             let is_zero = pool.apply(T::Eq, &[term, zero]);
             pool.apply(T::Not, &[is_zero])
         }
-        (Scalar::Real(_), _) => {
+        (Scalar::Fixed { .. }, _) => {
             let nearest = round(pool, digits, term);
             integer(pool, to, nearest)
         }

@@ -2,7 +2,7 @@
 
 use super::super::expr::{Expr, ExprKind, Fault, Op, RealFunction};
 use super::super::scalar::Scalar;
-use super::{Context, Reals, Unsupported, convert, fixed};
+use super::{Context, Unsupported, convert, fixed};
 use crate::logic::term::{Node, Op as T, Pool, Term};
 
 /// The term of an operator on operands that are terms already.
@@ -18,25 +18,27 @@ pub(super) fn apply<L, C: Context<L>>(
     if terms.len() != arity(op, terms.len()) {
         return Err(unsupported(expr, "an operator with a wrong number of operands"));
     }
-    let reals = context.reals();
     let operand = operands[0].scalar;
-    if matches!(op, Op::Div | Op::Mod) && !matches!(expr.scalar, Scalar::Real(_)) {
+    if matches!(op, Op::Div | Op::Mod) && !is_real(expr.scalar) {
         let pool = context.pool();
         let zero = pool.constant(expr.scalar.width(), 0);
         let by_zero = pool.apply(T::Eq, &[terms[1], zero]);
         context.fault(by_zero, Fault::DivisionByZero, expr.place);
     }
     let pool = context.pool();
-    if let Scalar::Real(format) = operand
-        && let Some(term) = real(pool, reals, op, format, terms)
-    {
+    let found = match operand {
+        Scalar::Real(format) => ieee(pool, op, format, terms),
+        Scalar::Fixed { digits, width } => fixed::apply(pool, op, digits, width, terms),
+        _ => None,
+    };
+    if let Some(term) = found {
         return Ok(term);
     }
     match op {
-        Op::Convert => Ok(convert::convert(pool, reals, operand, expr.scalar, terms[0])),
-        Op::Trunc if matches!(expr.scalar, Scalar::Real(_)) => Err(unsupported(expr, "`TRUNC` to a `REAL`")),
-        Op::Trunc => Ok(convert::trunc(pool, reals, operand, expr.scalar, terms[0])),
-        Op::Reinterpret => reinterpret(pool, terms[0], reals, operand, expr.scalar)
+        Op::Convert => Ok(convert::convert(pool, operand, expr.scalar, terms[0])),
+        Op::Trunc if is_real(expr.scalar) => Err(unsupported(expr, "`TRUNC` to a `REAL`")),
+        Op::Trunc => Ok(convert::trunc(pool, operand, expr.scalar, terms[0])),
+        Op::Reinterpret => reinterpret(pool, terms[0], operand, expr.scalar)
             .ok_or_else(|| unsupported(expr, "the bits of a `REAL` in a fixed-point reading")),
         Op::Real(function) => Err(unsupported(expr, &format!("`{}`", name(function)))),
         Op::Bit => match operands[1].kind {
@@ -47,7 +49,7 @@ pub(super) fn apply<L, C: Context<L>>(
             _ => Err(unsupported(expr, "a bit whose number is not a constant in range")),
         },
         Op::Sqrt => Err(unsupported(expr, "`SQRT` in a fixed-point reading")),
-        Op::Mod if matches!(operand, Scalar::Real(_)) => Err(unsupported(expr, "`MOD` of `REAL`")),
+        Op::Mod if is_real(operand) => Err(unsupported(expr, "`MOD` of `REAL`")),
         _ => Ok(integer(pool, op, operand, terms)),
     }
 }
@@ -145,21 +147,14 @@ fn rotate(pool: &mut Pool, left: bool, term: Term, amount: Term) -> Term {
 }
 
 /// The bits as they are; a `REAL` has none in a fixed-point reading.
-fn reinterpret(pool: &mut Pool, term: Term, reals: Reals, from: Scalar, to: Scalar) -> Option<Term> {
-    let real = |scalar| matches!(scalar, Scalar::Real(_));
-    if reals != Reals::Ieee && real(from) != real(to) {
-        return None;
-    }
-    let width = reals.width(to);
-    Some(convert::resize(pool, term, width, false))
+fn reinterpret(pool: &mut Pool, term: Term, from: Scalar, to: Scalar) -> Option<Term> {
+    let fixed = |scalar| matches!(scalar, Scalar::Fixed { .. });
+    (fixed(from) == fixed(to)).then(|| convert::resize(pool, term, to.width(), false))
 }
 
-/// Operators whose operands are reals; `None` where the operator is none of theirs.
-fn real(pool: &mut Pool, reals: Reals, op: Op, format: u32, terms: &[Term]) -> Option<Term> {
-    match reals {
-        Reals::Ieee => ieee(pool, op, format, terms),
-        Reals::Fixed { digits, width } => fixed::apply(pool, op, digits, width, terms),
-    }
+/// Whether it is a real, in whatever reading.
+const fn is_real(scalar: Scalar) -> bool {
+    matches!(scalar, Scalar::Real(_) | Scalar::Fixed { .. })
 }
 
 /// Operators on IEEE 754 numbers.

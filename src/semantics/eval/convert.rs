@@ -1,7 +1,7 @@
 //! Conversions between types, IEC 61131-3 §6.6.2.5.
 
-use super::mask;
 use super::real::{bits32, bits64, value32};
+use super::{fixed, mask};
 use crate::semantics::scalar::Scalar;
 
 /// Nanoseconds in the unit of `TIME`.
@@ -10,6 +10,8 @@ const NANOS_PER_MILLI: u64 = 1_000_000;
 /// [`crate::semantics::expr::Op::Convert`].
 pub(super) fn convert(to: Scalar, from: Scalar, value: u64) -> u64 {
     match (from, to) {
+        (Scalar::Fixed { digits, width }, _) => fixed::to(to, digits, width, value, false),
+        (_, Scalar::Fixed { digits, width }) => fixed::from(from, digits, width, value),
         (Scalar::Real(_), Scalar::Real(_)) => to_real(to, real(from, value)),
         (Scalar::Real(_), Scalar::Bool) => u64::from(real(from, value) != 0.0),
         (Scalar::Real(_), _) => saturated(to, real(from, value).round_ties_even()),
@@ -25,6 +27,7 @@ pub(super) fn convert(to: Scalar, from: Scalar, value: u64) -> u64 {
 /// [`crate::semantics::expr::Op::Trunc`].
 pub(super) fn truncate(to: Scalar, from: Scalar, value: u64) -> u64 {
     match (from, to) {
+        (Scalar::Fixed { digits, width }, _) => fixed::to(to, digits, width, value, true),
         (Scalar::Real(_), Scalar::Real(_)) => to_real(to, real(from, value).trunc()),
         (Scalar::Real(_), _) => saturated(to, real(from, value).trunc()),
         _ => convert(to, from, value),

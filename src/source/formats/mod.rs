@@ -4,6 +4,7 @@
 //! stand in. Of several that claim a file, a sure one wins over a likely one, and then the first.
 
 mod automation_studio;
+mod chart;
 mod codesys2;
 mod codesys_export;
 mod codesys_text;

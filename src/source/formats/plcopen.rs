@@ -1,13 +1,15 @@
 //! PLCopen XML (TC6, namespaces `tc6_0200` and `tc6_0201`), with the additions of CODESYS.
 //!
 //! Declarations are XML here. Where the exporting tool adds them as text (`InterfaceAsPlainText`), that is taken; otherwise
-//! `plcopen_declaration` writes them as Structured Text, each word with the place of the element it comes from. Graphical
-//! bodies are kept as they stand. Methods, properties and interfaces are additions of CODESYS (`addData`).
+//! `plcopen_declaration` writes them as Structured Text, each word with the place of the element it comes from; so does `chart` with
+//! sequential function charts. Other graphical bodies are kept as they stand. Methods, properties and interfaces are additions of CODESYS
+//! (`addData`).
 
 use std::collections::BTreeMap;
 
 use super::plcopen_declaration as declaration;
-use super::{Claim, Format, Input, Unwrapped, note_if_empty, xhtml, xml_notes};
+use super::{Claim, Format, Input, Unwrapped, chart, note_if_empty, xhtml, xml_notes};
+use crate::source::note::Note;
 use crate::source::paths;
 use crate::source::projects::{About, Draft, Member, ProjectKind};
 use crate::source::xml::{Element, Xml};
@@ -34,8 +36,8 @@ impl Format for PlcOpen {
         let xml = Xml::parse(input.text, &[]);
         let folders = Folders::new(xml.document());
         let mut objects = Vec::new();
-        collect(xml.document(), &folders, &mut objects);
         let mut notes = xml_notes(&xml);
+        collect(xml.document(), &folders, &mut objects, &mut notes);
         notes.extend(note_if_empty(&objects, "POU, type or variable list"));
         let project = xml.root().and_then(|root| project(root, input.path));
         let product = xml.root().and_then(|root| root.child("fileHeader")).and_then(|head| head.value("productName"));
@@ -112,14 +114,14 @@ impl Folders {
     }
 }
 
-fn collect(element: Element<'_>, folders: &Folders, objects: &mut Vec<Object>) {
+fn collect(element: Element<'_>, folders: &Folders, objects: &mut Vec<Object>, notes: &mut Vec<Note>) {
     for child in element.children() {
-        match top(child) {
+        match top(child, notes) {
             Some(mut object) => {
                 object.folder = folders.of(child);
                 objects.push(object);
             }
-            None => collect(child, folders, objects),
+            None => collect(child, folders, objects, notes),
         }
         if child.name() == "resource" {
             objects.extend(child.children_named("task").map(task));
@@ -133,7 +135,7 @@ fn id(element: Element<'_>) -> Option<String> {
     data.filter_map(|data| data.child_text("ObjectId")).next().or_else(|| element.value("ObjectId"))
 }
 
-fn top(element: Element<'_>) -> Option<Object> {
+fn top(element: Element<'_>, notes: &mut Vec<Note>) -> Option<Object> {
     let kind = match element.name() {
         "pou" => ObjectKind::Pou,
         "dataType" => ObjectKind::DataType,
@@ -141,21 +143,23 @@ fn top(element: Element<'_>) -> Option<Object> {
         "Interface" if element.attribute("name").is_some() => ObjectKind::Interface,
         _ => return None,
     };
-    Some(object(kind, element))
+    Some(object(kind, element, notes))
 }
 
-fn object(kind: ObjectKind, element: Element<'_>) -> Object {
+fn object(kind: ObjectKind, element: Element<'_>, notes: &mut Vec<Note>) -> Object {
     let name = element.attribute("name").filter(|name| !name.value.is_empty());
     let span = name.as_ref().map_or(element.name_span(), |name| name.span);
     let mut object = Object::new(kind, name.map(|name| name.value.into_owned()), span);
     let plain = plain_text(element);
     object.documentation = if plain.is_some() { None } else { documentation(element) };
     object.declaration = plain.or_else(|| declaration::of(kind, element));
-    object.body = element.child("body").map_or(Body::None, body);
+    if let Some(found) = element.child("body") {
+        object.body = body(found, &mut object.children, notes);
+    }
     if let Some(id) = id(element) {
         object.properties.push(("id".to_owned(), id));
     }
-    members(element, &mut object.children);
+    members(element, &mut object.children, notes);
     object
 }
 
@@ -172,12 +176,13 @@ fn documentation(element: Element<'_>) -> Option<Fragment> {
     xhtml::markdown(inside.or_else(|| element.child("documentation"))?)
 }
 
-fn body(body: Element<'_>) -> Body {
+/// The body; actions that are drawn inside of a chart are added to `inner`.
+fn body(body: Element<'_>, inner: &mut Vec<Object>, notes: &mut Vec<Note>) -> Body {
     for child in body.children() {
         match child.name() {
             "ST" => return Body::St(xhtml::code(child.child("xhtml").unwrap_or(child))),
             "IL" => return Body::Il(xhtml::code(child.child("xhtml").unwrap_or(child))),
-            "SFC" => return Body::Other(Language::Sfc, child.raw()),
+            "SFC" => return chart::body(chart::plcopen(child), child, inner, notes),
             "FBD" => return Body::Other(Language::Fbd, child.raw()),
             "LD" => return Body::Other(Language::Ld, child.raw()),
             _ => {}
@@ -193,7 +198,7 @@ fn body(body: Element<'_>) -> Body {
     }
 }
 
-fn members(owner: Element<'_>, out: &mut Vec<Object>) {
+fn members(owner: Element<'_>, out: &mut Vec<Object>, notes: &mut Vec<Note>) {
     for child in owner.children() {
         let kind = match child.name() {
             "action" => ObjectKind::Action,
@@ -203,12 +208,12 @@ fn members(owner: Element<'_>, out: &mut Vec<Object>) {
             "GetAccessor" => ObjectKind::Getter,
             "SetAccessor" => ObjectKind::Setter,
             "actions" | "transitions" | "addData" | "data" => {
-                members(child, out);
+                members(child, out, notes);
                 continue;
             }
             _ => continue,
         };
-        out.push(object(kind, child));
+        out.push(object(kind, child, notes));
     }
 }
 

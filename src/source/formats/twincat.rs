@@ -9,7 +9,7 @@
 //! A damaged file is read as far as it goes: members that a lost closing tag has put inside another
 //! member are taken as members of the owner.
 
-use super::{Claim, Format, Input, Unwrapped, note_if_empty, xml_notes};
+use super::{Claim, Format, Input, Unwrapped, chart, note_if_empty, xml_notes};
 use crate::source::codes;
 use crate::source::note::Note;
 use crate::source::xml::{Element, Xml};
@@ -76,30 +76,32 @@ fn member_kind(name: &str) -> Option<ObjectKind> {
 fn top(element: Element<'_>, objects: &mut Vec<Object>, notes: &mut Vec<Note>) {
     let name = element.name();
     if let Some(kind) = top_kind(name) {
-        let mut object = object(kind, element);
+        let mut object = object(kind, element, notes);
         if kind == ObjectKind::Task {
             task_properties(element, &mut object);
         } else {
-            members(element, &mut object.children);
+            members(element, &mut object.children, notes);
         }
         objects.push(object);
     } else if let Some(kind) = member_kind(name) {
         // The owner's tags are lost; its members are all that is left.
-        objects.push(object(kind, element));
-        members(element, objects);
+        objects.push(object(kind, element, notes));
+        members(element, objects, notes);
     } else if element.attribute("Name").is_some() {
         let message = format!("`{name}` is an object of TwinCAT that is not read");
         notes.push(Note::new(&codes::UNKNOWN_OBJECT, element.name_span(), message));
     }
 }
 
-fn object(kind: ObjectKind, element: Element<'_>) -> Object {
+fn object(kind: ObjectKind, element: Element<'_>, notes: &mut Vec<Note>) -> Object {
     let name = element.attribute("Name");
     let span = name.as_ref().map_or(element.name_span(), |name| name.span);
     let mut object = Object::new(kind, name.map(|name| name.value.into_owned()), span);
     object.folder = folder(element);
     object.declaration = element.child("Declaration").map(Element::text);
-    object.body = element.child("Implementation").map_or(Body::None, body);
+    if let Some(implementation) = element.child("Implementation") {
+        object.body = body(implementation, &mut object.children, notes);
+    }
     for (attribute, key) in [("Id", "id"), ("ParameterList", "parameter_list"), ("SpecialFunc", "special_function")] {
         if let Some(value) = element.value(attribute).filter(|value| !value.is_empty() && value != "None") {
             object.properties.push((key.to_owned(), value));
@@ -114,12 +116,12 @@ fn folder(element: Element<'_>) -> Vec<String> {
     path.split('\\').filter(|part| !part.is_empty()).map(str::to_owned).collect()
 }
 
-fn body(implementation: Element<'_>) -> Body {
+fn body(implementation: Element<'_>, inner: &mut Vec<Object>, notes: &mut Vec<Note>) -> Body {
     let Some(child) = implementation.children().next() else { return Body::None };
     match child.name() {
         "ST" => Body::St(child.text()),
         "IL" => Body::Il(child.text()),
-        "SFC" => Body::Other(Language::Sfc, child.raw()),
+        "SFC" => chart::body(chart::twincat(child), child, inner, notes),
         "LD" => Body::Other(Language::Ld, child.raw()),
         "FBD" => Body::Other(Language::Fbd, child.raw()),
         // Networks are shown as ladder, function block diagram or list, as the user likes.
@@ -130,16 +132,16 @@ fn body(implementation: Element<'_>) -> Body {
 }
 
 /// Adds the members inside `owner`; those inside a member (see above) follow it, except a property's accessors.
-fn members(owner: Element<'_>, out: &mut Vec<Object>) {
+fn members(owner: Element<'_>, out: &mut Vec<Object>, notes: &mut Vec<Note>) {
     for element in owner.children() {
         let Some(kind) = member_kind(element.name()) else { continue };
-        let mut member = object(kind, element);
+        let mut member = object(kind, element, notes);
         let mut inner = Vec::new();
-        members(element, &mut inner);
+        members(element, &mut inner, notes);
         let is_accessor = |object: &Object| matches!(object.kind, ObjectKind::Getter | ObjectKind::Setter);
         let (own, lost): (Vec<_>, Vec<_>) =
             inner.into_iter().partition(|object| kind == ObjectKind::Property && is_accessor(object));
-        member.children = own;
+        member.children.extend(own);
         out.push(member);
         out.extend(lost);
     }

@@ -6,6 +6,7 @@
 
 mod cells;
 mod columns;
+mod fixed;
 mod functions;
 mod globals;
 mod names;

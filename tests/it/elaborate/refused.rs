@@ -77,3 +77,23 @@ fn charts_lists_and_broken_text() {
         "FUNCTION F : INT\nVAR CONSTANT c : ARRAY[0..1] OF INT := [1, 2]; END_VAR\nc[0] := 1;\nEND_FUNCTION\n";
     assert_eq!(refused(constant, "F"), one("3:1", "an assignment to a constant"));
 }
+
+#[test]
+fn addresses_on_the_same_bits() {
+    let block = |first: &str, second: &str| {
+        format!(
+            "PROGRAM P\nVAR a AT {first}; b AT {second}; out : BOOL; END_VAR\nout := a = b;\nEND_PROGRAM\n",
+            first = first,
+            second = second
+        )
+    };
+    let overlap = "addresses that overlap";
+    assert_eq!(refused(&block("%IB0 : BOOL", "%IX0.3 : BOOL"), "P"), one("3:12", overlap));
+    assert_eq!(refused(&block("%QW0 : WORD", "%QD0 : DWORD"), "P")[0].1, overlap);
+    assert_eq!(refused(&block("%MW0 : ARRAY[0..3] OF WORD", "%MW3 : ARRAY[0..3] OF WORD"), "P")[0].1, overlap);
+    for (first, second) in
+        [("%IW0 : WORD", "%IW1 : WORD"), ("%IX0.0 : BOOL", "%IX0.1 : BOOL"), ("%IW0 : WORD", "%QW0 : WORD")]
+    {
+        assert!(with(&block(first, second), "P", &Options::default()).1.is_ok(), "{first} {second}");
+    }
+}

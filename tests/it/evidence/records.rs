@@ -48,6 +48,7 @@ pub(crate) fn verified() -> Answer {
         verdict: Verdict::Verified,
         coverage: Some(record::Coverage::default()),
         artefact: Some(Artefact { kind: ArtefactKind::Certificate, value: json!({"invariant": [1, -2, 3]}) }),
+        rests_on: Vec::new(),
         engine: "pdr".to_owned(),
         effort: Some(Effort { milliseconds: 12 }),
     }

@@ -1,4 +1,5 @@
 //! The machine.
 
 mod chart;
+mod drawn;
 mod standard;

@@ -1,7 +1,7 @@
 //! PLCopen XML: declarations written from XML, with places, or taken as text where the tool adds it.
 
 use rungbook::source::{Memory, ProjectKind};
-use rungbook::text::{Body, Language, ObjectKind, Span, Vendor};
+use rungbook::text::{Body, ObjectKind, Span, Vendor};
 
 use super::{declaration, find, read};
 
@@ -81,7 +81,7 @@ fn bodies_members_tasks_and_folders() {
     let objects = &tree.units[0].objects;
     let press = find(objects, "FB_Press").expect("it is there");
     assert_eq!(press.folder, ["Blocks"]);
-    assert!(matches!(&press.body, Body::Other(Language::Sfc, raw) if raw.text.contains("<step")));
+    assert!(matches!(&press.body, Body::St(chart) if &*chart.text == "STEP Init:\nEND_STEP\n\n"));
     assert_eq!(press.documentation.as_ref().map(|text| &*text.text), Some("Presses **hard**.\n\n- one\n- two"));
     let kinds: Vec<_> = press.children.iter().map(|child| (child.kind, child.name.as_deref().unwrap_or(""))).collect();
     assert_eq!(kinds, [(ObjectKind::Action, "Reset"), (ObjectKind::Method, "Run")]);

@@ -10,6 +10,8 @@ use rungbook::machine::interpret::{Interpreter, Options as RunOptions};
 use rungbook::machine::program::{Program, Role, SlotId};
 use rungbook::machine::translate::{Options, Translated, translate};
 use rungbook::semantics::eval::FaultAt;
+use rungbook::semantics::fixed::Reading;
+use rungbook::semantics::scalar::Scalar;
 
 use super::choices::Choices;
 use super::programs::program;
@@ -109,6 +111,8 @@ pub(super) fn input(choices: &mut Choices<'_>, program: &Program, slot: usize) -
 
 static CYCLES_DONE: AtomicU64 = AtomicU64::new(0);
 static FAULTS_SEEN: AtomicU64 = AtomicU64::new(0);
+static FIXED_CYCLES: AtomicU64 = AtomicU64::new(0);
+static UNSUPPORTED: AtomicU64 = AtomicU64::new(0);
 
 /// A program in its two meanings.
 pub(super) struct Agreement<'a> {
@@ -166,7 +170,15 @@ impl Agreement<'_> {
 
 fn compare(program: &Program, choices: &mut Choices<'_>) -> Result<(), TestCaseError> {
     let options = Options { loop_limit: LOOP_LIMIT, ..Options::default() };
-    let translated = translate(program, &options).map_err(|error| TestCaseError::fail(format!("{error:?}")))?;
+    let translated = match translate(program, &options) {
+        Ok(translated) => translated,
+        // One program in some thousands calculates with references; that is said and not modelled.
+        Err(error) if error.what == "a reference that is calculated or set from outside" => {
+            UNSUPPORTED.fetch_add(1, Ordering::Relaxed);
+            return Ok(());
+        }
+        Err(error) => return Err(TestCaseError::fail(format!("{error:?}"))),
+    };
     let agreement = Agreement { program, translated: &translated, loop_limit: LOOP_LIMIT, cycles: CYCLES };
     let (cycles, faults) = agreement.check(choices)?;
     CYCLES_DONE.fetch_add(cycles, Ordering::Relaxed);
@@ -184,8 +196,35 @@ fn programs_mean_the_same_interpreted_and_translated() {
         compare(&program, &mut choices)
     });
     let (cycles, faults) = (CYCLES_DONE.load(Ordering::Relaxed), FAULTS_SEEN.load(Ordering::Relaxed));
-    println!("{cycles} cycles, {faults} runs that ended with a fault");
+    let unsupported = UNSUPPORTED.load(Ordering::Relaxed);
+    println!("{cycles} cycles, {faults} runs that ended with a fault, {unsupported} programs unsupported");
     if let Err(error) = result {
         panic!("{error}");
     }
+    assert!(unsupported <= 2 + u64::from(cases(300)) / 500, "{unsupported} programs were not compared");
+}
+
+#[test]
+fn programs_mean_the_same_in_fixed_point() {
+    let config =
+        ProptestConfig { cases: cases(300), max_shrink_iters: 20_000, failure_persistence: None, ..Default::default() };
+    let result = TestRunner::new(config).run(&prop::collection::vec(any::<u32>(), 0..4000), |stream| {
+        let mut choices = Choices::new(&stream);
+        let mut program = program(&mut choices);
+        let (digits, width) = choices.one(&[(0, 8), (1, 12), (2, 16), (3, 32), (9, 32), (4, 24)]);
+        rungbook::machine::fixed::read(&mut program, Reading::new(digits, width).expect("a reading"));
+        prop_assert!(program.slots.iter().all(|slot| !matches!(slot.scalar, Scalar::Real(_))));
+        let options = Options { loop_limit: LOOP_LIMIT, ..Options::default() };
+        // What has no fixed-point form, such as the bits of a real, is said.
+        let Ok(translated) = translate(&program, &options) else { return Ok(()) };
+        let agreement =
+            Agreement { program: &program, translated: &translated, loop_limit: LOOP_LIMIT, cycles: CYCLES };
+        agreement.check(&mut choices).map(|(cycles, _)| _ = FIXED_CYCLES.fetch_add(cycles, Ordering::Relaxed))
+    });
+    if let Err(error) = result {
+        panic!("{error}");
+    }
+    let cycles = FIXED_CYCLES.load(Ordering::Relaxed);
+    println!("{cycles} cycles in fixed point");
+    assert!(cycles > u64::from(cases(300)) / 2, "most programs have a fixed-point form");
 }

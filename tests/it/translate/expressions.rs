@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use rungbook::logic::eval::evaluate as term_value;
 use rungbook::logic::term::{Node, Pool, Term};
-use rungbook::semantics::encode::{Reals, encode};
+use rungbook::semantics::encode::encode;
 use rungbook::semantics::eval::{FaultAt, Leaves, evaluate};
 use rungbook::semantics::expr::{Expr, ExprKind, Op};
 use rungbook::semantics::scalar::Scalar;
@@ -173,7 +173,7 @@ fn agree(stream: &[u32]) -> Result<(), TestCaseError> {
         .flat_map(|scalar| (0..LEAVES).map(|number| (*scalar, number)))
         .map(|(scalar, number)| pool.variable(scalar.width(), format!("{scalar:?} {number}")))
         .collect();
-    let encoded = encode(&mut pool, Reals::Ieee, &tree, &mut |_, leaf| leaves[slot(leaf)])
+    let encoded = encode(&mut pool, &tree, &mut |_, leaf| leaves[slot(leaf)])
         .map_err(|error| TestCaseError::fail(format!("{error:?}")))?;
     for _ in 0..4 {
         let values: Vec<u64> =
