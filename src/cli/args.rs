@@ -161,6 +161,9 @@ pub(crate) struct VerifyArgs {
     /// Strict conformance, which this version does not decide: such tables are `unsupported`
     #[arg(long)]
     pub(crate) strict: bool,
+    /// Change verified blocks in small ways, and say which changes their tables notice
+    #[arg(long)]
+    pub(crate) mutants: bool,
     /// Cycle time of tables that state none, such as 4ms
     #[arg(long, value_name = "TIME")]
     pub(crate) cycle: Option<String>,

@@ -65,7 +65,7 @@ pub fn decide(product: &Product, options: &Options, cancel: &Cancel, listener: &
 }
 
 /// The system with one obligation: that all hold.
-fn together(system: &System) -> System {
+pub(super) fn together(system: &System) -> System {
     let mut system = system.clone();
     let terms: Vec<_> = system.obligations.iter().map(|obligation| obligation.term).collect();
     let term = system.pool.all(terms);
@@ -75,7 +75,7 @@ fn together(system: &System) -> System {
 
 /// The proof in terms of state bits. No first value of a product depends on another state, so the blaster has no latch of
 /// its own here; a proof that spoke of it would become a malformed certificate, which the second check rejects.
-fn certificate(blasted: &Blasted, proof: Proof) -> Certificate {
+pub(super) fn certificate(blasted: &Blasted, proof: Proof) -> Certificate {
     let latches = blasted.latches.len();
     let fact = |(index, value): LatchFact| match blasted.latches.get(index) {
         Some(LatchBit::State { state, bit }) => Fact::Bit(StateBit { state: *state, bit: *bit, value }),

@@ -121,7 +121,8 @@ pub fn replay(subject: &Subject<'_>, environment: &Environment) -> Replay {
         let live: BTreeSet<usize> = game.live().into_iter().map(|leaf| subject.automaton.leaves[leaf].row).collect();
         if let Some(cycle) = run.cycles.last_mut() {
             cycle.tried = tried;
-            cycle.live = if run.end == End::Open { live.into_iter().collect() } else { Vec::new() };
+            let possible = matches!(run.end, End::Open | End::Ended);
+            cycle.live = if possible { live.into_iter().collect() } else { Vec::new() };
         }
     }
     run
