@@ -28,6 +28,7 @@ pub static RULES: &[Rule] = &[
     rules::conditional_pragma::RULE,
     rules::missing_brief::RULE,
     rules::placeholder_documentation::RULE,
+    rules::proves_nothing::RULE,
     rules::undocumented::RULE,
     rules::undocumented_member::RULE,
     rules::unknown_parameter::RULE,

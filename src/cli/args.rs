@@ -164,6 +164,9 @@ pub(crate) struct VerifyArgs {
     /// Read REAL and LREAL in fixed point, so many decimal digits in so many bits, such as 3,32: an assumption of the verdict
     #[arg(long, value_name = "DIGITS,WIDTH")]
     pub(crate) fixed: Option<String>,
+    /// Change verified blocks in small ways, and say which changes their tables notice
+    #[arg(long)]
+    pub(crate) mutants: bool,
     /// Cycle time of tables that state none, such as 4ms
     #[arg(long, value_name = "TIME")]
     pub(crate) cycle: Option<String>,

@@ -19,6 +19,9 @@ pub struct GateSection {
     /// No verdict is stale.
     #[serde(default)]
     pub no_stale: bool,
+    /// No verified table proves nothing.
+    #[serde(default)]
+    pub no_vacuous: bool,
     /// Every allowance names an owner and a last day.
     #[serde(default)]
     pub no_suppressed_without_owner: bool,
@@ -46,6 +49,7 @@ impl GateSection {
             verified: self.verified,
             no_violated: self.no_violated,
             no_stale: self.no_stale,
+            no_vacuous: self.no_vacuous,
             no_suppressed_without_owner: self.no_suppressed_without_owner,
             no_breaking: self.no_breaking,
             no_lost_evidence: self.no_lost_evidence,

@@ -32,6 +32,7 @@ pub const TEMPLATE: &str = r##"# rungbook.toml: how the manual of this tree is m
 # memory = 4096          # MiB for one table
 # jobs = 0               # tables at a time; 0 is one for each core
 # strict = false         # strict conformance for every table: its end is reached
+# coverage = true        # find out what each proof covered
 # loop-limit = 1000      # how often a loop without constant bounds may be done
 # fixed = { digits = 3, width = 32 }   # REAL and LREAL in fixed point, for proofs; the verdict says so
 # stubs = { "FB_Vendor" = "arbitrary", "FB_Other" = "stubs/FB_Other.st" }
@@ -48,6 +49,7 @@ pub const TEMPLATE: &str = r##"# rungbook.toml: how the manual of this tree is m
 # verified = 100         # at least so many percent of the test tables are verified
 # no-violated = true     # no table is violated
 # no-stale = true        # no verdict is older than its block, its table or its options
+# no-vacuous = true      # no verified table proves nothing
 # no-suppressed-without-owner = true   # every `@allow` names an owner and a last day
 # no-breaking = true     # `rungbook diff`: no incompatible change
 # no-lost-evidence = true              # `rungbook diff`: no table that was verified and is not any more

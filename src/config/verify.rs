@@ -19,6 +19,8 @@ pub struct VerifySection {
     pub memory: Option<u64>,
     /// How many tables at a time.
     pub jobs: Option<usize>,
+    /// Whether what a proof covered is found out.
+    pub coverage: Option<bool>,
     /// Strict conformance for every table.
     pub strict: Option<bool>,
     /// How often the body of a loop without constant bounds may be done.
@@ -47,6 +49,10 @@ pub struct Verification {
     pub options: Options,
     /// How many tables at a time.
     pub jobs: usize,
+    /// Whether what a proof covered is found out.
+    pub coverage: bool,
+    /// Whether mutants of verified blocks are tried; the command line asks for them.
+    pub mutants: bool,
     /// How often the body of a loop without constant bounds may be done.
     pub loop_limit: u64,
     /// How reals are read, if not as IEEE 754.
@@ -57,7 +63,15 @@ pub struct Verification {
 
 impl Default for Verification {
     fn default() -> Self {
-        Self { options: Options::default(), jobs: 0, loop_limit: 1_000, fixed: None, stubs: BTreeMap::new() }
+        Self {
+            options: Options::default(),
+            jobs: 0,
+            coverage: true,
+            mutants: false,
+            loop_limit: 1_000,
+            fixed: None,
+            stubs: BTreeMap::new(),
+        }
     }
 }
 
@@ -81,6 +95,8 @@ impl Verification {
                 strict: section.strict.unwrap_or(false),
             },
             jobs: section.jobs.unwrap_or(0),
+            coverage: section.coverage.unwrap_or(true),
+            mutants: false,
             loop_limit: positive("loop-limit", section.loop_limit, default.loop_limit)?,
             fixed,
             stubs: section.stubs,

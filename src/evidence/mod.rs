@@ -7,6 +7,7 @@ pub mod bundle;
 pub mod cache;
 pub mod changelog;
 pub mod codes;
+pub mod coverage;
 pub mod diff;
 pub mod digest;
 pub mod policy;

@@ -9,10 +9,11 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+pub use super::coverage::{Coverage, Ratio};
 use super::digest::{Digest, canonical};
 
 /// The version of the format; a change that old readers cannot read raises it.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// The JSON Schema of a record (draft 2020-12).
 pub const SCHEMA: &str = include_str!("record.schema.json");
@@ -151,33 +152,6 @@ impl Verdict {
             Self::Verified | Self::Violated | Self::Unverified => String::new(),
         }
     }
-}
-
-/// What a proof covered: a table that proves nothing must look like it.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Coverage {
-    /// Rows that some run reaches.
-    pub rows: Ratio,
-    /// Statements that some run within the table executes.
-    pub statements: Ratio,
-    /// Branches that some run within the table takes.
-    pub branches: Ratio,
-    /// Outputs that the table leaves free.
-    pub free_outputs: Vec<String>,
-    /// Mutants of the block that the table catches, where they were asked for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mutants: Option<Ratio>,
-}
-
-/// So many of so many.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Ratio {
-    /// How many.
-    pub hit: u64,
-    /// Of how many.
-    pub total: u64,
 }
 
 /// Names a certificate or a run by its digest.

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::coverage::{Coverage, Kind};
 use super::diff::Comparison;
 use super::policy::allow::Allowed;
-use super::record::{Coverage, Origin, Ratio, Record, Verdict};
+use super::record::{Origin, Record, Verdict};
 use super::results::Outside;
 use super::trace::{Line, State};
 
@@ -46,6 +47,7 @@ pub fn markdown(input: &Input<'_>) -> String {
     scope(input, &mut out);
     claims(input, &mut out);
     tables(input, &mut out);
+    uncovered(input, &mut out);
     holes(input, &mut out);
     assumptions(input, &mut out);
     traceability(input, &mut out);
@@ -175,17 +177,38 @@ fn tables(input: &Input<'_>, out: &mut String) {
 
 /// What a proof covered, in a cell.
 fn covered(coverage: &Coverage) -> String {
-    let ratio = |name: &str, ratio: Ratio| format!("{name} {}/{}", ratio.hit, ratio.total);
-    let mut parts = vec![
-        ratio("rows", coverage.rows),
-        ratio("statements", coverage.statements),
-        ratio("branches", coverage.branches),
-    ];
-    parts.extend(coverage.mutants.map(|mutants| ratio("mutants caught", mutants)));
-    if !coverage.free_outputs.is_empty() {
-        parts.push(format!("left free: {}", cell(&coverage.free_outputs.join(", "))));
+    let vacuous = coverage.vacuous.iter().map(|reason| format!("**proves nothing:** {}; ", cell(reason)));
+    vacuous.collect::<String>() + &cell(&coverage.line())
+}
+
+/// What no run within a table reaches, and what tables leave free.
+fn uncovered(input: &Input<'_>, out: &mut String) {
+    let covered = input.records.iter().filter_map(|record| Some((record, record.coverage.as_ref()?)));
+    let with_holes: Vec<_> =
+        covered.filter(|(_, coverage)| coverage.missed().next().is_some() || coverage.mutants.is_some()).collect();
+    if with_holes.is_empty() {
+        return;
     }
-    parts.join("; ")
+    out.push_str("## What verified tables do not cover\n\n");
+    out.push_str("A row, statement or way of a branch that no run within the table reaches; a change to the block that the table does not notice.\n\n");
+    head(out, &["table", "what", "where", "fate"]);
+    for (record, coverage) in with_holes {
+        let subject = cell(&record.claim.subject());
+        for item in coverage.missed() {
+            let kind = match item.kind {
+                Kind::Row => "row",
+                Kind::Statement => "statement",
+                Kind::Branch => "branch",
+            };
+            let place = format!("{}:{}", cell(&item.file), item.line);
+            row(out, &[&subject, &format!("{kind} {}", cell(&item.name)), &place, &item.fate.text()]);
+        }
+        for mutant in coverage.mutants.iter().flat_map(|mutants| mutants.survivors()) {
+            let place = format!("{}:{}", cell(&mutant.file), mutant.line);
+            row(out, &[&subject, &format!("mutant {}", cell(&mutant.change)), &place, &cell(&mutant.outcome.text())]);
+        }
+    }
+    out.push('\n');
 }
 
 fn holes(input: &Input<'_>, out: &mut String) {

@@ -203,6 +203,14 @@ impl Pool {
         }
     }
 
+    /// Every constant, with its width.
+    pub fn constants(&self) -> impl Iterator<Item = (u32, u64)> + '_ {
+        self.nodes.iter().filter_map(|(node, width)| match node {
+            Node::Const(value) => Some((*width, *value)),
+            _ => None,
+        })
+    }
+
     /// The name of a variable.
     #[must_use]
     pub fn name(&self, var: Var) -> &str {

@@ -33,7 +33,7 @@ pub fn of(project: &Project, verified: &Verified) -> Answer {
     let milliseconds = u64::try_from(verified.time.as_millis()).unwrap_or(u64::MAX);
     Answer {
         verdict,
-        coverage: None,
+        coverage: verified.coverage.clone(),
         artefact,
         rests_on: verified.assumptions.clone(),
         engine: verified.engine.to_owned(),

@@ -4,9 +4,11 @@
 
 pub mod answer;
 pub mod artefact;
+mod cover;
 pub mod evidence;
 pub mod export;
 mod libraries;
+mod mutants;
 mod overrides;
 mod read;
 pub mod recheck;

@@ -62,8 +62,9 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
 
 /// Takes what is known of each table, and lets the rules about verdicts speak again.
 pub fn know(project: &mut Project, settings: &Settings, answers: Vec<crate::evidence::record::Answer>) {
-    use crate::audit::rules::{unverified_table, violated_table};
-    let about = |name: &str| name == unverified_table::CODE.name || name == violated_table::CODE.name;
+    use crate::audit::rules::{proves_nothing, unverified_table, violated_table};
+    let codes = [proves_nothing::CODE.name, unverified_table::CODE.name, violated_table::CODE.name];
+    let about = |name: &str| codes.contains(&name);
     project.answers = answers;
     let Project { catalogue, docs, tables, answers, .. } = project;
     let context = Context { catalogue, docs, tables, answers };

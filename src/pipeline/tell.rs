@@ -2,7 +2,8 @@
 //! with what was expected and seen, and the lines that were executed.
 //!
 //! As JSON: `{"format": "rungbook-run-1", "cycle_ns", "globals": [{"name", "bits", "value"}], "inputs": [{"name", "bits": […]}],
-//! "variables": [{"name", "input"}], "cycles": [{"values": […], "tried": […], "live": […], "lines": […]}], "end": {…}}`. Everything that
+//! "variables": [{"name", "input"}], "cycles": [{"values": […], "tried": […], "live": […], "lines": […]}], "end": {…}}`. A failing cell in `end` names
+//! the assignment that gave the wrong value: `"set": {"cycle", "file", "line"}`. Everything that
 //! is needed to play the run again is in `globals` and `inputs`; the rest is for reading.
 
 use serde_json::{Value, json};
@@ -169,7 +170,19 @@ impl Teller<'_> {
             let [_, end] = last?.values.get(index)?;
             Some(self.text(index, *end))
         });
-        json!({"column": name, "expected": expected, "seen": seen.unwrap_or_default()})
+        let set = self.subject(column).and_then(|index| self.set_last(index));
+        json!({"column": name, "expected": expected, "seen": seen.unwrap_or_default(), "set": set})
+    }
+
+    /// The assignment that gave a variable the value that it has in the last cycle.
+    fn set_last(&self, variable: usize) -> Option<Value> {
+        let path = &self.bound.variables[variable].path;
+        let slot = self.program.variables.iter().find(|named| named.path.eq_ignore_ascii_case(path))?.slot;
+        let cycles = self.verified.replay.as_ref()?.cycles.iter().enumerate().rev();
+        let mut assigned = cycles.flat_map(|(at, cycle)| cycle.assigned.iter().rev().map(move |set| (at, set)));
+        let (at, place) = assigned.find_map(|(at, set)| Some((at, set.place.filter(|_| set.slot == slot)?)))?;
+        let (file, line) = self.at(place);
+        Some(json!({"cycle": at + 1, "file": file, "line": line}))
     }
 
     /// The variable that a column is bound to, if it is one.

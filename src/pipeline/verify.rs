@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::{Project, artefact};
+use super::{Project, artefact, cover, mutants};
 use crate::config::Settings;
+use crate::evidence::coverage::Coverage;
 use crate::library::ItemId;
 use crate::logic::system::System;
 use crate::machine::elaborate::{self, elaborate};
@@ -43,6 +44,8 @@ pub struct Verified {
     pub assumptions: Vec<String>,
     /// How many implicit obligations (faults of the machine) were proven along.
     pub faults: usize,
+    /// What the proof covered.
+    pub coverage: Option<Coverage>,
     /// The run of a violation.
     pub replay: Option<Replay>,
     /// The slots that the environment sets, in the order of a run's inputs.
@@ -81,6 +84,7 @@ pub fn verify(
         cycle_time,
         assumptions: Vec::new(),
         faults: 0,
+        coverage: None,
         replay: None,
         input_slots: Vec::new(),
         certificate: None,
@@ -96,22 +100,47 @@ pub fn verify(
             made.program = Some(ready.program.clone());
             made.input_slots.clone_from(&ready.product.inputs);
             judge(&ready, settings, &mut made, cancel, &|progress| listener(table, progress));
+            made.time = start.elapsed();
+            if matches!(made.verdict, Verdict::Verified(_)) && settings.verify.coverage {
+                listener(table, Progress { engine: "coverage", depth: 0, clauses: 0 });
+                match covered(project, attached, &ready, settings, cancel) {
+                    Ok(coverage) => made.coverage = Some(coverage),
+                    Err(error) => made.internal = Some(error),
+                }
+            }
         }
         Err(verdict) => made.verdict = verdict,
     }
-    made.time = start.elapsed();
+    if made.time.is_zero() {
+        made.time = start.elapsed();
+    }
     made
+}
+
+/// What the proof covered, and which mutants the table notices where that is asked for.
+fn covered(
+    project: &Project,
+    attached: &AttachedTable,
+    ready: &Ready,
+    settings: &Settings,
+    cancel: &Cancel,
+) -> Result<Coverage, String> {
+    let (mut coverage, runs) = cover::cover(project, &attached.table, ready, cancel)?;
+    if settings.verify.mutants {
+        coverage.mutants = Some(mutants::mutants(project, ready, &runs, cancel)?);
+    }
+    Ok(coverage)
 }
 
 /// A table and its block, ready to be decided.
 #[derive(Debug)]
 pub struct Ready {
-    program: Arc<Program>,
-    table: Arc<BoundTable>,
-    automaton: Automaton,
-    product: Product,
+    pub(super) program: Arc<Program>,
+    pub(super) table: Arc<BoundTable>,
+    pub(super) automaton: Automaton,
+    pub(super) product: Product,
     strict: Option<Strict>,
-    loop_limit: u64,
+    pub(super) loop_limit: u64,
 }
 
 /// What strict conformance adds where words may be of any length; where they are bounded, every run ends, and it is weak

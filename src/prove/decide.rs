@@ -76,7 +76,7 @@ pub fn together(system: &System) -> System {
 
 /// The proof in terms of state bits. No first value of a product depends on another state, so the blaster has no latch of
 /// its own here; a proof that spoke of it would become a malformed certificate, which the second check rejects.
-fn certificate(blasted: &Blasted, proof: Proof) -> Certificate {
+pub(super) fn certificate(blasted: &Blasted, proof: Proof) -> Certificate {
     let latches = blasted.latches.len();
     let fact = |(index, value): LatchFact| match blasted.latches.get(index) {
         Some(LatchBit::State { state, bit }) => Fact::Bit(StateBit { state: *state, bit: *bit, value }),

@@ -4,6 +4,7 @@
 //! run. None knows another; the portfolio shares the time over them.
 
 pub mod bmc;
+pub mod cover;
 pub mod decide;
 pub mod engine;
 pub mod ic3;

@@ -173,7 +173,8 @@ impl<'a> Player<'a> {
         let live: BTreeSet<usize> = live.collect();
         if let Some(cycle) = run.cycles.last_mut() {
             cycle.tried = tried;
-            cycle.live = if run.end == End::Open { live.into_iter().collect() } else { Vec::new() };
+            let possible = matches!(run.end, End::Open | End::Ended);
+            cycle.live = if possible { live.into_iter().collect() } else { Vec::new() };
         }
     }
 }

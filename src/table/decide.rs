@@ -3,6 +3,7 @@
 //! Each variable has a term for each cycle that is spoken of; inputs of an enumeration hold declared values, subranges keep to
 //! their range, global variables satisfy their `with`. A cell that faults is not satisfied.
 
+pub mod free;
 pub mod lint;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -5,6 +5,7 @@ pub mod broken_link;
 pub mod conditional_pragma;
 pub mod missing_brief;
 pub mod placeholder_documentation;
+pub mod proves_nothing;
 pub mod undocumented;
 pub mod undocumented_member;
 pub mod unknown_parameter;

@@ -44,11 +44,11 @@ pub(crate) fn view(context: &Context<'_>, name: &str, run: &Value) -> Option<Run
             values: list(&cycle["values"]).iter().enumerate().map(value).collect(),
             tried: list(&cycle["tried"]).iter().map(text).collect(),
             live: list(&cycle["live"]).iter().map(text).collect(),
-            lines: list(&cycle["lines"]).iter().take(LINES).map(|line| self::line(context, line)).collect(),
+            lines: lines(context, list(&cycle["lines"]), &wrong(&run["end"], index + 1)),
         }
     };
     let cycles: Vec<RunCycle> = all.iter().enumerate().skip(first).map(cycle).collect();
-    let timing = timing(name, &variables, &cycles);
+    let (timing, unchanged) = timing(name, &variables, &cycles);
     let drawing = timing::draw(&timing);
     let (width, height) = drawing.points();
     Some(RunView {
@@ -58,6 +58,8 @@ pub(crate) fn view(context: &Context<'_>, name: &str, run: &Value) -> Option<Run
         length: all.len(),
         timing: Diagram { svg: drawing.to_svg(), alt: drawing.alt.clone(), width, height },
         edges: timing::edges(&timing),
+        unchanged,
+        failing: cells(&run["end"]).map(|(row, cell)| (text(row), text(&cell["column"]), explained(cell))).collect(),
         cycles,
     })
 }
@@ -81,8 +83,13 @@ fn summary(end: &Value) -> Vec<String> {
     }
     let row = |row: &Value| {
         let cells = list(&row["cells"]).iter().map(|cell| {
+            let set = &cell["set"];
+            let set = match set["cycle"].as_u64() {
+                Some(own) => format!(", set in cycle {own} by {}:{}", text(&set["file"]), set["line"]),
+                None => String::new(),
+            };
             format!(
-                "{} is {} where {} is expected",
+                "{} is {} where {} is expected{set}",
                 text(&cell["column"]),
                 text(&cell["seen"]),
                 text(&cell["expected"])
@@ -91,6 +98,33 @@ fn summary(end: &Value) -> Vec<String> {
         format!("Cycle {cycle}, row {}: {}.", text(&row["row"]), cells.collect::<Vec<_>>().join("; "))
     };
     list(&end["rows"]).iter().map(row).collect()
+}
+
+/// The failing cells with the names of their rows.
+fn cells(end: &Value) -> impl Iterator<Item = (&Value, &Value)> {
+    list(&end["rows"]).iter().flat_map(|row| list(&row["cells"]).iter().map(|cell| (&row["row"], cell)))
+}
+
+fn explained(cell: &Value) -> String {
+    format!("expected {}, seen {}", text(&cell["expected"]), text(&cell["seen"]))
+}
+
+/// The lines of a cycle that gave outputs the values that fail.
+fn wrong(end: &Value, cycle: usize) -> Vec<(String, u64)> {
+    let sets = cells(end).map(|(_, cell)| &cell["set"]).filter(|set| set["cycle"].as_u64() == Some(cycle as u64));
+    sets.map(|set| (text(&set["file"]), set["line"].as_u64().unwrap_or_default())).collect()
+}
+
+/// The executed lines of a cycle, those first that gave a wrong value where there are too many.
+fn lines(context: &Context<'_>, lines: &[Value], wrong: &[(String, u64)]) -> Vec<RunLine> {
+    let is_wrong = |line: &Value| {
+        let line = (text(&line["file"]), line["line"].as_u64().unwrap_or_default());
+        wrong.contains(&line)
+    };
+    let last = lines.iter().rposition(|line| is_wrong(line)).map_or(0, |at| (at + 1).saturating_sub(LINES));
+    let from = if lines.len() > LINES { last } else { 0 };
+    let shown = lines.iter().skip(from).take(LINES);
+    shown.map(|own| RunLine { wrong: is_wrong(own), ..line(context, own) }).collect()
 }
 
 fn line(context: &Context<'_>, line: &Value) -> RunLine {
@@ -102,11 +136,13 @@ fn line(context: &Context<'_>, line: &Value) -> RunLine {
         line: number,
         text: shown.unwrap_or_default().trim().to_owned(),
         set: list(&line["set"]).iter().map(|set| (text(&set["name"]), text(&set["value"]))).collect(),
+        wrong: false,
     }
 }
 
-/// Values as lanes: a `BOOL` is a level.
-fn timing(name: &str, variables: &[(String, bool)], cycles: &[RunCycle]) -> Timing {
+/// Values as lanes: a `BOOL` is a level. A variable that keeps its value, and whose value is not wrong, gets none.
+fn timing(name: &str, variables: &[(String, bool)], cycles: &[RunCycle]) -> (Timing, Vec<(String, String)>) {
+    let mut unchanged = Vec::new();
     let lane = |(at, (name, input)): (usize, &(String, bool))| {
         let mut spans: Vec<Span> = Vec::new();
         for (index, cycle) in cycles.iter().enumerate() {
@@ -119,6 +155,16 @@ fn timing(name: &str, variables: &[(String, bool)], cycles: &[RunCycle]) -> Timi
         let is_level = spans.iter().all(|span| matches!(span.text.as_str(), "TRUE" | "FALSE"));
         Lane { name: name.clone(), role: if *input { Role::Input } else { Role::Output }, is_level, spans }
     };
-    let lanes = variables.iter().enumerate().map(lane).collect();
-    Timing { name: name.to_owned(), lanes, mark: cycles.len().checked_sub(1) }
+    let is_failing = |at: usize| cycles.iter().any(|cycle| cycle.values.get(at).is_some_and(|value| value.failing));
+    let mut lanes = Vec::new();
+    for (at, variable) in variables.iter().enumerate() {
+        let lane = lane((at, variable));
+        if lane.spans.len() <= 1 && cycles.len() > 1 && !is_failing(at) {
+            let value = lane.spans.first().map_or(String::new(), |span| span.text.clone());
+            unchanged.push((variable.0.clone(), value));
+        } else {
+            lanes.push(lane);
+        }
+    }
+    (Timing { name: name.to_owned(), lanes, mark: cycles.len().checked_sub(1) }, unchanged)
 }

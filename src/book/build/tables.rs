@@ -3,7 +3,11 @@
 use super::address::slug;
 use super::{Context, prose};
 use crate::book::view::prose::{Block, Inline};
-use crate::book::view::table::{BracketView, CellView, ColumnView, RowView, TableView, VerdictView};
+use crate::book::view::run::RunView;
+use crate::book::view::table::{
+    BracketView, CellView, ColumnView, CoverageView, MissedView, RowView, TableView, VerdictView,
+};
+use crate::evidence::coverage::{Coverage, Fate, Kind};
 use crate::evidence::record::{Answer, Verdict};
 use crate::library::ItemId;
 use crate::table::explain;
@@ -28,7 +32,7 @@ pub(crate) fn known(context: &Context<'_>, index: usize) -> VerdictView {
 pub(crate) fn verdict(table: &AttachedTable, answer: Option<&Answer>) -> VerdictView {
     if table.table.has_errors() {
         let note = "The table has errors; it gets no verdict.".to_owned();
-        return VerdictView { key: "error", label: "error".to_owned(), note, facts: Vec::new() };
+        return VerdictView { key: "error", label: "error".to_owned(), note, facts: Vec::new(), coverage: None };
     }
     let verdict = answer.map_or(&Verdict::Unverified, |answer| &answer.verdict);
     let note = match verdict {
@@ -45,10 +49,37 @@ pub(crate) fn verdict(table: &AttachedTable, answer: Option<&Answer>) -> Verdict
         Verdict::Unusable { reasons } => format!("No verdict is possible: {}", reasons.join("; ")),
     };
     let facts = answer.map(facts_of).unwrap_or_default();
-    VerdictView { key: verdict.word(), label: verdict.word().to_owned(), note, facts }
+    let coverage = answer.and_then(|answer| answer.coverage.as_ref()).map(covered);
+    VerdictView { key: verdict.word(), label: verdict.word().to_owned(), note, facts, coverage }
 }
 
-/// How a verdict was found, and what the proof covered.
+/// What a proof covered.
+fn covered(coverage: &Coverage) -> CoverageView {
+    let missed = coverage.missed().map(|item| MissedView {
+        kind: match item.kind {
+            Kind::Row => "row",
+            Kind::Statement => "statement",
+            Kind::Branch => "branch",
+        },
+        text: item.name.clone(),
+        file: item.file.clone(),
+        line: item.line,
+        fate: match item.fate {
+            Fate::NotWithin { cycles } => format!("not reached in {cycles} cycles"),
+            fate => fate.text(),
+        },
+    });
+    let survivors = coverage.mutants.iter().flat_map(|mutants| mutants.survivors()).map(|mutant| MissedView {
+        kind: "mutant",
+        text: mutant.change.clone(),
+        file: mutant.file.clone(),
+        line: mutant.line,
+        fate: mutant.outcome.text(),
+    });
+    CoverageView { line: coverage.line(), vacuous: coverage.vacuous.clone(), missed: missed.chain(survivors).collect() }
+}
+
+/// How a verdict was found.
 fn facts_of(answer: &Answer) -> Vec<(String, String)> {
     let mut facts = Vec::new();
     let mut push = |name: &str, value: String| facts.push((name.to_owned(), value));
@@ -60,18 +91,6 @@ fn facts_of(answer: &Answer) -> Vec<(String, String)> {
         let hex = reference.digest.hex();
         push("Evidence", format!("{} {}", reference.kind.folder().trim_end_matches('s'), &hex[..12.min(hex.len())]));
     }
-    if let Some(coverage) = &answer.coverage {
-        let ratio = |ratio: crate::evidence::record::Ratio| format!("{} of {}", ratio.hit, ratio.total);
-        push("Rows reached", ratio(coverage.rows));
-        push("Statements executed", ratio(coverage.statements));
-        push("Branches taken", ratio(coverage.branches));
-        if let Some(mutants) = coverage.mutants {
-            push("Mutants caught", ratio(mutants));
-        }
-        if !coverage.free_outputs.is_empty() {
-            push("Outputs never constrained", coverage.free_outputs.join(", "));
-        }
-    }
     facts
 }
 
@@ -80,6 +99,11 @@ fn view(context: &Context<'_>, top: ItemId, attached: &AttachedTable, n: usize, 
     let layout = layout::layout(table);
     let at = context.input.files.line_column(table.place);
     let anchor = format!("t{}-{}", n + 1, slug(&table.name));
+    let run = answer
+        .and_then(|answer| answer.artefact.as_ref())
+        .and_then(|artefact| super::run::view(context, &table.name, &artefact.value));
+    let mut rows = rows(context, attached, &layout);
+    mark(&mut rows, &layout, run.as_ref());
     TableView {
         name: table.name.clone(),
         label: format!("{}::{anchor}", context.addresses.item(top).label),
@@ -87,15 +111,23 @@ fn view(context: &Context<'_>, top: ItemId, attached: &AttachedTable, n: usize, 
         file: context.input.files.get(table.place.file).path.clone(),
         line: at.line,
         verdict: verdict(attached, answer),
-        run: answer
-            .and_then(|answer| answer.artefact.as_ref())
-            .and_then(|artefact| super::run::view(context, &table.name, &artefact.value)),
+        run,
         facts: facts(table, &layout),
         remark: Vec::new(),
         columns: columns(&layout),
-        rows: rows(context, attached, &layout),
+        rows,
         brackets: brackets(&layout),
         errors: attached.errors.iter().map(|error| error.message.clone()).collect(),
+    }
+}
+
+/// Marks the cells in which a run fails.
+fn mark(rows: &mut [RowView], layout: &Layout, run: Option<&RunView>) {
+    for (row, column, explained) in run.iter().flat_map(|run| &run.failing) {
+        for own in rows.iter_mut().filter(|own| own.seq == *row) {
+            let cells = own.cells.iter_mut().zip(&layout.columns).filter(|(_, head)| head.name == *column);
+            cells.for_each(|(cell, _)| cell.failing = Some(explained.clone()));
+        }
     }
 }
 
@@ -174,6 +206,7 @@ fn cell(cell: &layout::LaidCell, column: &str, error: Option<String>) -> CellVie
         any: cell.role == Role::Any,
         meaning,
         error,
+        failing: None,
     }
 }
 

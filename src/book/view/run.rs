@@ -19,6 +19,10 @@ pub struct RunView {
     pub cycles: Vec<RunCycle>,
     /// The timing diagram of these cycles.
     pub timing: Diagram,
+    /// Variables that the diagram leaves out, since they keep their value: name and value.
+    pub unchanged: Vec<(String, String)>,
+    /// The cells that fail: row, column, and what was expected and seen.
+    pub failing: Vec<(String, String, String)>,
     /// Where each shown cycle begins in the diagram, and where the last one ends, in its units.
     pub edges: Vec<f64>,
 }
@@ -60,4 +64,6 @@ pub struct RunLine {
     pub text: String,
     /// What it set: names and values.
     pub set: Vec<(String, String)>,
+    /// Whether it gave an output the value that the table does not admit.
+    pub wrong: bool,
 }

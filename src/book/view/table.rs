@@ -46,6 +46,34 @@ pub struct VerdictView {
     pub note: String,
     /// What it rests on and how it was found: name and value.
     pub facts: Vec<(String, String)>,
+    /// What the proof covered, if it was found out.
+    pub coverage: Option<CoverageView>,
+}
+
+/// What a proof covered.
+#[derive(Clone, Debug, Serialize)]
+pub struct CoverageView {
+    /// All in a line.
+    pub line: String,
+    /// Why the verdict proves nothing; empty where it proves something.
+    pub vacuous: Vec<String>,
+    /// What is not covered.
+    pub missed: Vec<MissedView>,
+}
+
+/// A row, a statement or a way of a branch that no run reaches, or a change to the block that the table does not notice.
+#[derive(Clone, Debug, Serialize)]
+pub struct MissedView {
+    /// `row`, `statement`, `branch`, `mutant`.
+    pub kind: &'static str,
+    /// What it is.
+    pub text: String,
+    /// The file, below the tree's root.
+    pub file: String,
+    /// The line, from 1.
+    pub line: u32,
+    /// What is known of it.
+    pub fate: String,
 }
 
 /// A column.
@@ -93,6 +121,8 @@ pub struct CellView {
     pub meaning: String,
     /// What is wrong with it.
     pub error: Option<String>,
+    /// What was expected and seen, where the run that violates the table ends here.
+    pub failing: Option<String>,
 }
 
 /// A bracket beside rows that form a repeated block.

@@ -95,6 +95,8 @@ fn apply(args: &VerifyArgs, settings: &mut Settings) -> Result<(), Failure> {
         let reading = Reading::parse(text).map_err(|message| Failure(format!("`--fixed {text}`: {message}")))?;
         settings.verify.fixed = Some(reading);
     }
+    settings.verify.mutants |= args.mutants;
+    settings.verify.coverage |= args.mutants;
     settings.verify.jobs = args.jobs.unwrap_or(settings.verify.jobs);
     if let Some(text) = &args.cycle {
         let cycle = read::time(text).filter(|nanos| *nanos > 0);
@@ -216,7 +218,10 @@ fn one(
     progress: &Progress,
     failed: &Mutex<Option<Failure>>,
 ) -> verdict::Line {
-    if answer::is_settled(&known.1) {
+    let wants_mutants = job.settings.verify.mutants
+        && known.1.coverage.as_ref().is_none_or(|coverage| coverage.mutants.is_none())
+        && known.1.verdict == crate::evidence::record::Verdict::Verified;
+    if answer::is_settled(&known.1) && !wants_mutants {
         return verdict::Line { table, answer: known.1.clone(), verified: None };
     }
     let unit = job.project.tables[table].table.name.clone();

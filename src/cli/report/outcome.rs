@@ -175,11 +175,16 @@ pub(crate) fn numbers(project: &Project, records: &[(Record, Answer)]) -> Number
         *verdicts.entry(record.verdict.word().to_owned()).or_default() += 1;
     }
     let bare = |allowed: &&Allowed| allowed.allowance.owner.is_empty() || allowed.allowance.until.is_empty();
+    let proves_nothing = |answer: &Answer| {
+        let coverage = answer.coverage.as_ref().filter(|_| answer.verdict.word() == "verified");
+        coverage.is_some_and(|coverage| !coverage.vacuous.is_empty())
+    };
     Numbers {
         entities,
         documented,
         tables: records.len(),
         verdicts,
+        vacuous: records.iter().filter(|(_, answer)| proves_nothing(answer)).count(),
         allowed_without_owner: project.allowed.iter().filter(bare).count(),
         breaking: None,
         lost: None,

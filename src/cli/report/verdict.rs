@@ -5,13 +5,14 @@ use std::io::IsTerminal;
 use serde_json::{Value, json};
 
 use crate::cli::Exit;
+use crate::evidence::coverage::{Coverage, Fate, Item, Kind};
 use crate::evidence::record::{Answer, Verdict};
 use crate::machine::program::Role;
 use crate::machine::trace::diagram;
 use crate::machine::trace::{Signal, Trace};
 use crate::pipeline::Project;
 use crate::pipeline::verify::Verified;
-use crate::semantics::show::Kind;
+use crate::semantics::show::Kind as Shown;
 
 /// A table and what is known of it now.
 pub(crate) struct Line {
@@ -23,6 +24,8 @@ pub(crate) struct Line {
     pub(crate) verified: Option<Verified>,
 }
 
+/// How many things that a proof did not cover the terminal shows.
+const MISSED: usize = 12;
 /// How many cycles of a run the terminal shows.
 const SHOWN: usize = 60;
 
@@ -89,6 +92,9 @@ fn told(project: &Project, line: &Line, colour: bool) -> String {
     for assumption in &line.answer.rests_on {
         out.push_str(&format!("            assumes: {assumption}\n"));
     }
+    if let Some(coverage) = &line.answer.coverage {
+        out.push_str(&covered(coverage));
+    }
     if let Some(internal) = line.verified.as_ref().and_then(|verified| verified.internal.as_ref()) {
         out.push_str(&format!("            internal error: {internal}\n"));
     }
@@ -97,6 +103,35 @@ fn told(project: &Project, line: &Line, colour: bool) -> String {
         out.push_str(&drawn(project, line, run));
     }
     out
+}
+
+/// What a proof covered: a line, and one for each thing that is missed.
+fn covered(coverage: &Coverage) -> String {
+    let mut out = format!("            {}\n", coverage.line());
+    for reason in &coverage.vacuous {
+        out.push_str(&format!("            proves nothing: {reason}\n"));
+    }
+    let missed: Vec<String> = coverage.missed().map(missed).collect();
+    missed.iter().take(MISSED).for_each(|line| out.push_str(line));
+    if missed.len() > MISSED {
+        out.push_str(&format!("            … and {} more; `--format json` lists all\n", missed.len() - MISSED));
+    }
+    for mutant in coverage.mutants.iter().flat_map(|mutants| mutants.survivors()) {
+        let outcome = mutant.outcome.text();
+        out.push_str(&format!("            {}:{}: {}: {outcome}\n", mutant.file, mutant.line, mutant.change));
+    }
+    out
+}
+
+fn missed(item: &Item) -> String {
+    let fate = match item.fate {
+        Fate::NotWithin { cycles } => format!("not reached in {cycles} cycles"),
+        fate => fate.text(),
+    };
+    match item.kind {
+        Kind::Row => format!("            row {}: {fate}\n", item.name),
+        Kind::Statement | Kind::Branch => format!("            {}:{}: `{}`: {fate}\n", item.file, item.line, item.name),
+    }
 }
 
 fn run(line: &Line) -> Option<&Value> {
@@ -122,7 +157,12 @@ fn loss(run: &Value) -> String {
             .into_iter()
             .flatten()
             .map(|cell| {
-                format!("{} is {}, not {}", text(&cell["column"]), text(&cell["seen"]), text(&cell["expected"]))
+                let set = &cell["set"];
+                let set = match set["cycle"].as_u64() {
+                    Some(cycle) => format!(" (set in cycle {cycle} by {}:{})", text(&set["file"]), set["line"]),
+                    None => String::new(),
+                };
+                format!("{} is {}, not {}{set}", text(&cell["column"]), text(&cell["seen"]), text(&cell["expected"]))
             })
             .collect();
         out.push_str(&format!("            cycle {}, row {}: {}\n", end["cycle"], text(&row["row"]), cells.join("; ")));
@@ -152,7 +192,7 @@ fn drawn(project: &Project, line: &Line, run: &Value) -> String {
         let input = variable.role == crate::table::bind::Role::Input;
         let values = replay.cycles[first..].iter().map(|cycle| cycle.values[index][usize::from(!input)]).collect();
         let role = if input { Role::Input } else { Role::Output };
-        trace.signals.push(Signal { name: variable.path.clone(), kind: Kind::from(variable.scalar), role, values });
+        trace.signals.push(Signal { name: variable.path.clone(), kind: Shown::from(variable.scalar), role, values });
     }
     let options = diagram::Options { mark: Some(trace.cycles().saturating_sub(1)), ..diagram::Options::default() };
     let drawn = diagram::draw(&trace, &options);
@@ -199,6 +239,7 @@ fn one(project: &Project, line: &Line) -> Value {
         "assumptions": line.answer.rests_on,
         "internal_error": line.verified.as_ref().and_then(|verified| verified.internal.as_ref()),
         "known": line.verified.is_none(),
+        "coverage": line.answer.coverage,
         "run": run,
     })
 }

@@ -13,6 +13,8 @@ pub struct Options {
     pub no_violated: bool,
     /// No verdict is stale.
     pub no_stale: bool,
+    /// No verified table proves nothing.
+    pub no_vacuous: bool,
     /// Every allowance names who answers for it and until when.
     pub no_suppressed_without_owner: bool,
     /// No incompatible change against the compared release.
@@ -32,6 +34,8 @@ pub struct Numbers {
     pub tables: usize,
     /// Test tables by verdict.
     pub verdicts: BTreeMap<String, usize>,
+    /// Verified tables that prove nothing.
+    pub vacuous: usize,
     /// Findings that an allowance lets pass although it lacks an owner or a day.
     pub allowed_without_owner: usize,
     /// Incompatible changes, where releases are compared.
@@ -75,6 +79,7 @@ pub fn judge(options: &Options, numbers: &Numbers) -> Vec<Line> {
     };
     none("no-violated", options.no_violated, Some(count("violated")));
     none("no-stale", options.no_stale, Some(count("stale")));
+    none("no-vacuous", options.no_vacuous, Some(numbers.vacuous));
     none("no-suppressed-without-owner", options.no_suppressed_without_owner, Some(numbers.allowed_without_owner));
     none("no-breaking", options.no_breaking, numbers.breaking);
     none("no-lost-evidence", options.no_lost_evidence, numbers.lost);

@@ -17,6 +17,7 @@ pub(super) fn value(run: &RunView, anchor: &str) -> Value {
         first: run.cycles.first().map_or(0, |cycle| cycle.number),
         last: run.length,
         cycles: list(&run.cycles, cycle),
+        unchanged: list(&run.unchanged, |(name, value)| record! { name: name.as_str(), value: value.as_str() }),
         timing: markup(&run.timing.svg),
         edges: edges.join(" "),
     }
@@ -41,6 +42,7 @@ fn line(line: &RunLine) -> Value {
         file: line.file.as_str(),
         line: line.line,
         text: line.text.as_str(),
+        wrong: line.wrong,
         set: list(&line.set, |(name, value)| record! { name: name.as_str(), value: value.as_str() }),
     }
 }

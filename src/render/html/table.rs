@@ -20,6 +20,17 @@ pub(super) fn value(table: &TableView, prose: &Prose<'_>, line_href: Option<Stri
             label: table.verdict.label.as_str(),
             note: table.verdict.note.as_str(),
         },
+        coverage: table.verdict.coverage.as_ref().map(|coverage| record! {
+            line: coverage.line.as_str(),
+            vacuous: list(&coverage.vacuous, |reason| Value::from(reason.as_str())),
+            missed: list(&coverage.missed, |missed| record! {
+                kind: missed.kind,
+                text: missed.text.as_str(),
+                file: missed.file.as_str(),
+                line: missed.line,
+                fate: missed.fate.as_str(),
+            }),
+        }),
         facts: list(&table.facts, |(name, value)| record! { name: name.as_str(), value: value.as_str() }),
         remark: markup(&prose.inlines(&table.remark)),
         groups: groups(&table.columns),
@@ -84,7 +95,7 @@ fn cells(row: &RowView, columns: &[ColumnView]) -> Value {
     let cell = |(i, column): (usize, &ColumnView)| match row.cells.get(i) {
         Some(cell) => filled(cell, column, begins_group(columns, i)),
         None => record! { edge: begins_group(columns, i), group: column.group, text: "", effective: "", same: false,
-        any: false, meaning: "", error: Value::none() },
+        any: false, meaning: "", error: Value::none(), failing: Value::none() },
     };
     Value::from(columns.iter().enumerate().map(cell).collect::<Vec<_>>())
 }
@@ -99,6 +110,7 @@ fn filled(cell: &CellView, column: &ColumnView, edge: bool) -> Value {
         any: cell.any,
         meaning: cell.meaning.as_str(),
         error: cell.error.as_deref(),
+        failing: cell.failing.as_deref(),
     }
 }
 

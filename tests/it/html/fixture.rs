@@ -369,7 +369,7 @@ fn finding(code: &str, severity: &'static str, message: &str, file: &str, line: 
 }
 
 fn verdict(key: &'static str, note: &str) -> VerdictView {
-    VerdictView { key, label: key.to_owned(), note: note.to_owned(), facts: Vec::new() }
+    VerdictView { key, label: key.to_owned(), note: note.to_owned(), facts: Vec::new(), coverage: None }
 }
 
 fn column(group: &'static str, name: &str, type_: &str) -> ColumnView {
@@ -385,6 +385,7 @@ fn row(seq: &str, cells: &[&str], duration: &str, remark: &str) -> RowView {
         any: *text == "-",
         meaning: format!("the value is {text}"),
         error: None,
+        failing: None,
     };
     RowView {
         seq: seq.to_owned(),

@@ -7,7 +7,10 @@ use rungbook::book::view::entity::{
 };
 use rungbook::book::view::finding::{CodeCount, FindingView, ReadingView, SkippedView};
 use rungbook::book::view::prose::{Block, Href, Inline, ListItem};
-use rungbook::book::view::table::{BracketView, CellView, ColumnView, RowView, TableView, VerdictView};
+use rungbook::book::view::run::{RunCycle, RunLine, RunValue, RunView};
+use rungbook::book::view::table::{
+    BracketView, CellView, ColumnView, CoverageView, MissedView, RowView, TableView, VerdictView,
+};
 use rungbook::book::view::{Book, Chapter, Entry, FolderView, Front, IndexEntry, LibraryView, Totals};
 use rungbook::figure::{Drawing, inheritance, interface};
 
@@ -98,7 +101,7 @@ fn entry(name: &str, type_: &str) -> interface::Entry {
 fn cell(text: &str) -> CellView {
     let (same, any) = (text.is_empty(), text == "-");
     let (text, effective) = (text.to_owned(), text.to_owned());
-    CellView { text, effective, same, any, meaning: String::new(), error: None }
+    CellView { text, effective, same, any, meaning: String::new(), error: None, failing: None }
 }
 
 fn row(seq: &str, cells: &[&str], duration: &str, remark: &str) -> RowView {
@@ -128,6 +131,7 @@ pub(super) fn table(name: &str, columns: Vec<ColumnView>, rows: Vec<RowView>, br
             label: "unverified".to_owned(),
             note: "Nobody has checked this table yet.".to_owned(),
             facts: Vec::new(),
+            coverage: None,
         },
         facts: vec![("cycle".to_owned(), "10 ms".to_owned()), ("p".to_owned(), "1 <= p AND p <= 9".to_owned())],
         remark: text("The cylinder reaches its end position in time, or says so."),
@@ -137,6 +141,64 @@ pub(super) fn table(name: &str, columns: Vec<ColumnView>, rows: Vec<RowView>, br
         errors: Vec::new(),
         run: None,
     }
+}
+
+/// A table with the run that violates it, of twelve cycles.
+pub(super) fn violated() -> TableView {
+    let mut out = big_table("Violated", 2, 2);
+    out.verdict.key = "violated";
+    out.verdict.label = "violated".to_owned();
+    if let Some(cell) = out.rows.last_mut().and_then(|row| row.cells.last_mut()) {
+        cell.failing = Some("expected 1, seen 7".to_owned());
+    }
+    let line = RunLine {
+        file: "FB_Tested.st".to_owned(),
+        line: 9,
+        text: "nColumn1 := 7;".to_owned(),
+        set: vec![("nColumn1".to_owned(), "7".to_owned())],
+        wrong: true,
+    };
+    let cycle = |number: usize| RunCycle {
+        number,
+        values: vec![
+            RunValue { text: "3".to_owned(), changed: false, failing: false },
+            RunValue { text: number.to_string(), changed: true, failing: number == 12 },
+        ],
+        tried: vec!["R1".to_owned()],
+        live: vec!["R1".to_owned()],
+        lines: vec![line.clone()],
+    };
+    out.run = Some(RunView {
+        summary: vec!["Cycle 12, row R1: nColumn1 is 7 where 1 is expected.".to_owned()],
+        globals: vec![("p".to_owned(), "4".to_owned())],
+        variables: vec![("nColumn0".to_owned(), true), ("nColumn1".to_owned(), false)],
+        length: 12,
+        cycles: (1..=12).map(cycle).collect(),
+        timing: diagram(&Drawing { width: 200.0, height: 60.0, alt: "Timing diagram".to_owned(), shapes: Vec::new() }),
+        unchanged: vec![("nColumn0".to_owned(), "3".to_owned())],
+        failing: vec![("R1".to_owned(), "nColumn1".to_owned(), "expected 1, seen 7".to_owned())],
+        edges: vec![0.0; 13],
+    });
+    out
+}
+
+/// A verified table that says nothing.
+pub(super) fn proves_nothing() -> TableView {
+    let mut out = big_table("Empty", 2, 2);
+    out.verdict.key = "verified";
+    out.verdict.label = "verified".to_owned();
+    out.verdict.coverage = Some(CoverageView {
+        line: "rows 1/2 · statements 3/3 · branches 0/0".to_owned(),
+        vacuous: vec!["no row that a run reaches constrains an output".to_owned()],
+        missed: vec![MissedView {
+            kind: "row",
+            text: "R1".to_owned(),
+            file: "FB_Tested.st".to_owned(),
+            line: 3,
+            fate: "not reached in 9 cycles".to_owned(),
+        }],
+    });
+    out
 }
 
 /// A table with a bracket inside a bracket.

@@ -105,3 +105,25 @@ fn a_manual_of_many_blocks_settles() {
 fn a_manual_of_very_many_blocks_settles() {
     assert!(manual(&fixture::large(1500), &options()).pages > 5000);
 }
+
+#[test]
+fn the_run_of_a_violation_and_what_a_proof_covered_are_printed() {
+    let mut entity = fixture::entity(fixture::core("function-block", "Function block", "FB_Tested", "Tested."));
+    let (violated, vacuous) = (fixture::violated(), fixture::proves_nothing());
+    entity.tables = vec![violated, vacuous];
+    let out = manual(&fixture::book(vec![entity]), &options());
+    let Some(text) = text_of(&out) else { return };
+    for expected in [
+        "nColumn1 is 7 where 1 is expected",
+        "The last 8 cycles of 12",
+        "unchanged: nColumn0 = 3",
+        "Lines executed in cycle 12",
+        "FB_Tested.st:9",
+        "nColumn1 := 7;",
+        "Proves nothing: no row that a run reaches constrains an output.",
+        "rows 1/2",
+        "not reached in 9 cycles",
+    ] {
+        assert!(text.contains(expected), "{expected} is not in:\n{text}");
+    }
+}

@@ -4,9 +4,11 @@
 pub(crate) mod aiger;
 mod broken;
 pub(crate) mod check;
+mod covered;
 mod explicit;
 pub(crate) mod families;
 pub(crate) mod minmax;
+mod mutants;
 pub(crate) mod random;
 pub(crate) mod words;
 

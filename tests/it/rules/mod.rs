@@ -5,6 +5,7 @@ mod broken_link;
 mod conditional_pragma;
 mod missing_brief;
 mod placeholder_documentation;
+mod proves_nothing;
 mod undocumented;
 mod undocumented_member;
 mod unknown_parameter;

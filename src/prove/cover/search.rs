@@ -1,0 +1,144 @@
+//! The search: random runs, bounded model checking for the targets that are left, proofs that no run reaches them.
+//!
+//! Each question to the solver asks for any of the targets that are left, at the depth that is looked at; a run that it
+//! gives is followed for everything that it reaches, and random runs go on from its end.
+
+use super::super::bmc::{Reply, Unrolled};
+use super::super::decide::certificate;
+use super::super::engine::{Answer, Budget, Cancel, Search};
+use super::super::ic3::Ic3Search;
+use super::super::problem::Problem;
+use super::super::reduce::Reduced;
+use super::frontier::Frontier;
+use super::walk::Walker;
+use super::{Effort, Fate, Question, Reached};
+use crate::logic::aig::{Lit, Model, Trace};
+use crate::logic::blast::{Blasted, blast};
+use crate::logic::certificate::Certificate;
+use crate::logic::system::{Labelled, System};
+
+/// How long random runs go on from the end of a run that the solver found.
+const BEHIND: usize = 60;
+
+/// Answers a question, within an effort.
+#[must_use]
+pub fn reach(question: &Question, effort: &Effort, cancel: &Cancel) -> Reached {
+    let blasted = blast(&asked(question));
+    let budget = Budget { cancel: cancel.clone(), ..Budget::default() };
+    let mut frontier = Frontier::new(question.targets.len());
+    let mut walker = Walker::new(question, &blasted, effort.simulation);
+    walker.explore(&mut frontier);
+    let depth = unrolled(&blasted.model, effort, &budget, &mut walker, &mut frontier);
+    let mut never = vec![None; question.targets.len()];
+    proofs(&blasted, effort, &budget, &mut walker, &mut frontier, &mut never);
+    let (reached, runs) = frontier.finish();
+    let fate = |(at, proof): (Option<(usize, usize)>, Option<Certificate>)| match (at, proof) {
+        (Some((run, cycle)), _) => Fate::Reached { run, cycle },
+        (None, Some(proof)) => Fate::Never(Box::new(proof)),
+        (None, None) => Fate::NotWithin(depth),
+    };
+    Reached { fates: reached.into_iter().zip(never).map(fate).collect(), runs }
+}
+
+/// The system whose obligations are that the targets are not reached.
+fn asked(question: &Question) -> System {
+    let mut system = question.system.clone();
+    let label = |term| Labelled { term, name: String::new(), origin: None };
+    system.obligations = question.targets.iter().map(|target| label(system.pool.not(*target))).collect();
+    system.outputs = vec![label(question.covered)];
+    system
+}
+
+/// Looks at runs of one cycle more each time; how many cycles it has looked at in full.
+fn unrolled(
+    model: &Model,
+    effort: &Effort,
+    budget: &Budget,
+    walker: &mut Walker<'_>,
+    frontier: &mut Frontier,
+) -> usize {
+    let mut unrolled = Unrolled::new(model, true);
+    let mut left = effort.search;
+    for depth in 0..effort.depth {
+        for constraint in &model.constraints {
+            let holds = unrolled.graph.at(*constraint, depth);
+            unrolled.require(&[holds]);
+        }
+        loop {
+            let open = frontier.open();
+            if open.is_empty() || left == 0 || budget.exhausted_with(unrolled.graph.bytes() * 4).is_some() {
+                return depth;
+            }
+            let mut any = Lit::FALSE;
+            for target in open {
+                let there = unrolled.graph.at(model.bad[target], depth);
+                any = unrolled.graph.aig.or(any, there);
+            }
+            if any == Lit::FALSE {
+                break;
+            }
+            match unrolled.ask(any, &mut left, budget) {
+                Reply::Yes => {
+                    let trace = trace(model, &mut unrolled, depth);
+                    let before = frontier.open().len();
+                    walker.follow(&trace, BEHIND, frontier);
+                    if frontier.open().len() == before {
+                        return depth;
+                    }
+                }
+                Reply::No => break,
+                Reply::Stopped(_) | Reply::Pause => return depth,
+            }
+        }
+    }
+    effort.depth
+}
+
+fn trace(model: &Model, unrolled: &mut Unrolled, depth: usize) -> Trace {
+    let mut read = |lit: Lit, cycle: usize| {
+        let at = unrolled.graph.at(lit, cycle);
+        unrolled.value(at)
+    };
+    let latches = model.latches.iter().map(|latch| read(latch.lit, 0)).collect();
+    let inputs = (0..=depth).map(|cycle| model.inputs.iter().map(|input| read(*input, cycle)).collect()).collect();
+    Trace { latches, inputs }
+}
+
+/// Tries to prove of each target that is left that no run reaches it.
+fn proofs(
+    blasted: &Blasted,
+    effort: &Effort,
+    budget: &Budget,
+    walker: &mut Walker<'_>,
+    frontier: &mut Frontier,
+    never: &mut [Option<Certificate>],
+) {
+    let open = frontier.open();
+    let share = effort.proof / (open.len().max(1) as u64);
+    for target in open {
+        if !frontier.is_open(target) || budget.exhausted().is_some() {
+            continue;
+        }
+        if blasted.model.bad[target] == Lit::FALSE {
+            never[target] = Some(Certificate { k: 1, ..Certificate::default() });
+            continue;
+        }
+        let reduced = Reduced::new(&blasted.model, target);
+        let mut search = Ic3Search::new(Problem::new(&reduced.model, 0));
+        let answer = search.advance(share, budget, &|_| {});
+        match answer.map(|answer| reduced.lift(&blasted.model, answer)) {
+            Some(Answer::Proved(proof)) => never[target] = Some(certificate(blasted, proof)),
+            Some(Answer::Violated(trace)) => walker.follow(&trace, BEHIND, frontier),
+            _ => {}
+        }
+    }
+}
+
+/// The obligation that a target's certificate is about.
+#[must_use]
+pub fn never(question: &Question, target: usize) -> System {
+    let mut system = question.system.clone();
+    let term = system.pool.not(question.targets[target]);
+    system.obligations = vec![Labelled { term, name: "not reached".to_owned(), origin: None }];
+    system
+}

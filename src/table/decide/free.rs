@@ -1,0 +1,32 @@
+//! Which assertions say anything: a cell that every value satisfies leaves its column free.
+
+use std::time::Duration;
+
+use super::Puzzle;
+use crate::table::bind::{BoundCell, BoundTable};
+
+/// The longest that is spent on a cell; one that takes longer counts as saying something.
+const DEADLINE: Duration = Duration::from_secs(5);
+
+/// For each row, the columns of assertions whose cells any values of the variables satisfy, in a first cycle and in later ones.
+#[must_use]
+pub fn free(bound: &BoundTable) -> Vec<Vec<usize>> {
+    let columns = || bound.assumptions.iter().enumerate().filter(|(_, assumption)| !**assumption);
+    let row = |row: &crate::table::bind::BoundRow| {
+        let free = columns().filter(|(column, _)| match row.cells.get(*column) {
+            Some(Some(cell)) => admits_all(bound, cell),
+            _ => true,
+        });
+        free.map(|(column, _)| column).collect()
+    };
+    bound.rows.iter().map(row).collect()
+}
+
+fn admits_all(bound: &BoundTable, cell: &BoundCell) -> bool {
+    [&cell.first, &cell.later].into_iter().all(|constraint| {
+        let mut puzzle = Puzzle::new(bound, false);
+        let Some(holds) = puzzle.holds(constraint, 0, false) else { return false };
+        let fails = puzzle.pool.not(holds);
+        puzzle.session(&[fails], DEADLINE).ask(&[fails], &[]) == Some(false)
+    })
+}
