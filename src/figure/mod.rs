@@ -6,6 +6,7 @@
 //! [`inheritance::Hierarchy`], [`bars::Bar`]) and a function that draws it; [`svg`] writes the result.
 //! Nothing here reads a library: whoever makes pages fills the structs.
 
+pub mod automaton;
 pub mod bars;
 pub mod inheritance;
 pub mod interface;

@@ -1,4 +1,5 @@
-//! A timing diagram: levels as steps, other values as boxes, cycles from left to right.
+//! A timing diagram: levels as steps, other values as boxes, cycles from left to right. Where nothing is asked of a signal, its lane
+//! has a dashed line halfway up.
 
 use super::metrics::cells;
 use super::{Anchor, Drawing, Paint, Point, Shape, Style, TextStyle};
@@ -9,7 +10,7 @@ use crate::machine::trace::lane::{Axis, Lane, Span};
 pub struct Timing {
     /// What has run.
     pub name: String,
-    /// The lanes, from top to bottom.
+    /// The lanes, from top to bottom; a span without a text is free.
     pub lanes: Vec<Lane>,
     /// A cycle that is marked, from 0: where a run is lost.
     pub mark: Option<usize>,
@@ -45,10 +46,12 @@ pub fn draw(timing: &Timing) -> Drawing {
         let at = Point::new(left - 8.0, ground - 3.0);
         let style = TextStyle::new(12.0, Paint::Ink);
         shapes.push(Shape::Text { at, text: lane.name.clone(), anchor: Anchor::End, style });
-        if lane.is_level {
-            shapes.push(level(&lane.spans, &x, ground));
-        } else {
-            lane.spans.iter().for_each(|span| value(&mut shapes, span, &x, ground));
+        for spans in lane.spans.chunk_by(|a, b| a.text.is_empty() == b.text.is_empty()) {
+            match spans.first() {
+                Some(span) if span.text.is_empty() => spans.iter().for_each(|span| shapes.push(free(span, &x, ground))),
+                _ if lane.is_level => shapes.push(level(spans, &x, ground)),
+                _ => spans.iter().for_each(|span| value(&mut shapes, span, &x, ground)),
+            }
         }
     }
     let cycles = axis_end(&timing.lanes);
@@ -114,6 +117,13 @@ fn level(spans: &[Span], x: &dyn Fn(usize) -> f64, ground: f64) -> Shape {
     Shape::Polyline { points: points.collect(), closed: false, style: Style::stroke(Paint::Ink, 1.5) }
 }
 
+fn free(span: &Span, x: &dyn Fn(usize) -> f64, ground: f64) -> Shape {
+    let y = ground - LEVEL / 2.0;
+    let (from, to) = (Point::new(x(span.from), y), Point::new(x(span.to), y));
+    let line = Shape::Line { from, to, style: Style::stroke(Paint::Muted, 1.0).dashed() };
+    Shape::Group { href: None, title: Some("anything".to_owned()), shapes: vec![line] }
+}
+
 /// A box with its value, which a pointer shows whole where it has no room.
 fn value(shapes: &mut Vec<Shape>, span: &Span, x: &dyn Fn(usize) -> f64, ground: f64) {
     let (from, to) = (x(span.from), x(span.to));
@@ -162,6 +172,10 @@ mod tests {
         let svg = drawing.to_svg();
         assert!(svg.contains(">5</text>") && svg.contains("<title>123456</title>"), "{svg}");
         assert!(!svg.contains(">123456</text>"), "no room for it");
+        let free = lane("Stop", true, vec![span(0, 5, ""), span(5, 20, "TRUE")]);
+        let with_free = draw(&Timing { lanes: vec![free], ..timing.clone() }).to_svg();
+        assert_eq!(with_free.matches("<title>anything</title>").count(), 1, "{with_free}");
+        assert_eq!(with_free.matches("<polyline").count(), 1, "{with_free}");
         assert_eq!(drawing.alt, "Timing diagram of Pump: 2 signals over 20 cycles");
     }
 }

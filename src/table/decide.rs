@@ -7,13 +7,12 @@ pub mod free;
 pub mod lint;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::time::{Duration, Instant};
 
 use super::bind::{BoundTable, Leaf, Role, Term as Cell};
 use crate::logic::blast::Blaster;
+use crate::logic::sat::Solver;
 use crate::logic::sat::cadi::Cadical;
 use crate::logic::sat::encode::Encoder;
-use crate::logic::sat::{Solver, Stop};
 use crate::logic::term::{Pool, Term};
 use crate::semantics::encode::encode;
 use crate::semantics::scalar::Scalar;
@@ -163,7 +162,7 @@ impl<'b> Puzzle<'b> {
     }
 
     /// Hands everything to a solver; `parts` can then be asked for together.
-    pub(super) fn session(&self, parts: &[Term], deadline: Duration) -> Session {
+    pub(super) fn session(&self, parts: &[Term], effort: Effort) -> Session {
         let mut blaster = Blaster::new(&self.pool);
         blaster.blast(parts.iter().chain(&self.facts).chain(self.terms.values()).copied());
         let words: BTreeMap<Term, Vec<crate::logic::aig::Lit>> = parts
@@ -174,7 +173,7 @@ impl<'b> Puzzle<'b> {
             .collect();
         let aig = blaster.finish();
         let mut solver = Cadical::default();
-        solver.set_stop(Stop::at(Instant::now() + deadline));
+        solver.set_conflicts(Some(effort.conflicts));
         let mut encoder = Encoder::default();
         let mut literals = BTreeMap::new();
         for (term, word) in words {
@@ -184,22 +183,44 @@ impl<'b> Puzzle<'b> {
         for fact in &self.facts {
             solver.add_clause(&literals[fact][..1]);
         }
-        Session { solver, literals }
+        let cost = literals.values().map(Vec::len).sum::<usize>() as u64;
+        Session { solver, literals, misses: effort.misses, work: effort.work, cost }
     }
+}
+
+/// How long a session may think. It is counted in conflicts and not in seconds: what is found must not depend on the machine.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// The most conflicts of a question.
+    pub(super) conflicts: u32,
+    /// After so many questions that took more, no more are answered.
+    pub(super) misses: u32,
+    /// How many literals are asked about in all: every question costs those of the whole puzzle.
+    pub(super) work: u64,
 }
 
 /// A solver that knows a puzzle.
 pub(super) struct Session {
     solver: Cadical,
     literals: BTreeMap<Term, Vec<i32>>,
+    misses: u32,
+    work: u64,
+    cost: u64,
 }
 
 impl Session {
-    /// Whether some values satisfy all of `parts`, and of the terms the bits that are said; `None` where time was up.
+    /// Whether some values satisfy all of `parts`, and of the terms the bits that are said; `None` where that was not
+    /// decided with the effort that is allowed.
     pub(super) fn ask(&mut self, parts: &[Term], bits: &[i32]) -> Option<bool> {
+        if self.misses == 0 || self.work < self.cost {
+            return None;
+        }
+        self.work -= self.cost;
         let assumptions: Vec<i32> =
             parts.iter().map(|part| self.literals[part][0]).chain(bits.iter().copied()).collect();
-        self.solver.solve(&assumptions)
+        let answer = self.solver.solve(&assumptions);
+        self.misses -= u32::from(answer.is_none());
+        answer
     }
 
     /// Whether a part was needed for the last answer, which was no.
@@ -226,6 +247,7 @@ impl Session {
 }
 
 /// A value as a literal.
-pub(super) fn literal(scalar: Scalar, labels: &[(u64, String)], bits: u64) -> String {
+#[must_use]
+pub fn literal(scalar: Scalar, labels: &[(u64, String)], bits: u64) -> String {
     show::literal(&Kind { scalar, labels: labels.to_vec() }, bits)
 }

@@ -3,9 +3,10 @@
 //!
 //! Inputs stand in front of outputs whatever order the user wrote; a renderer needs nothing of the model.
 
-use super::cell::ast::{BinaryOp, Chunk, ChunkKind, Constraint, Expr, ExprKind};
+use super::cell::ast::{BinaryOp, Chunk, ChunkKind, Constraint};
 use super::cell::print::{self, Style};
 use super::duration::{Bounds, DurationCell, Flag};
+use super::legend::{self, Sign};
 use super::model::{Column, ColumnKind, Node, Row, Subject, Table};
 
 /// A table, ready to be drawn.
@@ -30,7 +31,7 @@ pub struct Layout {
     /// The time constants with their values.
     pub constants: Vec<(String, String)>,
     /// The signs that occur, and what they mean.
-    pub legend: Vec<(&'static str, &'static str)>,
+    pub legend: Vec<Sign>,
 }
 
 /// Columns under one heading.
@@ -83,6 +84,8 @@ pub struct LaidCell {
     pub rows: usize,
     /// How it is meant.
     pub role: Role,
+    /// The signs in it that need a word.
+    pub signs: Vec<Sign>,
 }
 
 /// How a cell is meant.
@@ -136,7 +139,7 @@ pub fn layout(table: &Table) -> Layout {
         title: table.name.clone(),
         groups: groups(&columns),
         has_remarks: rows.iter().any(|row| !row.remark.is_empty()),
-        legend: legend(table),
+        legend: legend::of_table(table),
         globals: globals(table),
         constants: table.constants.iter().map(|c| (c.name.clone(), quantity_text(c.value))).collect(),
         columns,
@@ -211,7 +214,14 @@ fn lines(table: &Table, order: &[usize]) -> Vec<Line> {
                 let merged = !own && at > 0;
                 let below = rows[at + 1..].iter().take_while(|row| row.cells[*column].is_none()).count();
                 let (text, role) = cell_text(effective[at][*column]);
-                LaidCell { text, rows: if merged { 0 } else { 1 + below }, role }
+                let constraint = effective[at][*column].and_then(|cell| cell.constraint.as_ref());
+                let signs = match constraint {
+                    _ if merged => vec![Sign::Blank],
+                    Some(constraint) => legend::of_cell(table, constraint),
+                    None if role == Role::Any => vec![Sign::Any],
+                    None => Vec::new(),
+                };
+                LaidCell { text, rows: if merged { 0 } else { 1 + below }, role, signs }
             })
             .collect()
     };
@@ -297,68 +307,6 @@ fn brackets_of(nodes: &[Node], depth: usize, row: &mut usize, out: &mut Vec<Brac
                     out.insert(at, Bracket { depth, first, last: *row - 1, label, name: block.id.clone() });
                 }
             }
-        }
-    }
-}
-
-/// The signs that need a word, in the order of the legend.
-fn legend(table: &Table) -> Vec<(&'static str, &'static str)> {
-    let mut seen = Seen::default();
-    for cells in table.effective() {
-        for cell in cells {
-            match cell.and_then(|cell| cell.constraint.as_ref()) {
-                Some(constraint) => seen.constraint(constraint),
-                None => seen.any |= cell.is_none(),
-            }
-        }
-    }
-    seen.durations(&table.body);
-    let all = [
-        (seen.any, "–", "anything"),
-        (seen.interval, "[a, b]", "between a and b, both included"),
-        (seen.trigger, "√c", "c in the first cycle of the row, then anything"),
-        (seen.past, "X[-n]", "the value of X n cycles ago"),
-        (seen.any_duration, "– (duration)", "any number of cycles, none included"),
-        (seen.progress, "p (duration)", "goes on only while the inputs do not fit what follows"),
-        (seen.omega, "ω (duration)", "for ever"),
-    ];
-    all.into_iter().filter(|(seen, ..)| *seen).map(|(_, sign, meaning)| (sign, meaning)).collect()
-}
-
-#[derive(Default)]
-struct Seen {
-    any: bool,
-    interval: bool,
-    trigger: bool,
-    past: bool,
-    any_duration: bool,
-    progress: bool,
-    omega: bool,
-}
-
-impl Seen {
-    fn constraint(&mut self, constraint: &Constraint) {
-        for chunk in &constraint.chunks {
-            self.any |= chunk.kind == ChunkKind::Any;
-            self.interval |= matches!(chunk.kind, ChunkKind::Interval(_));
-            self.trigger |= chunk.is_trigger();
-        }
-        constraint.walk(&mut |expr: &Expr| self.past |= matches!(expr.kind, ExprKind::Past(..)));
-    }
-
-    fn durations(&mut self, nodes: &[Node]) {
-        for node in nodes {
-            let cell = match node {
-                Node::Row(row) => &row.duration,
-                Node::Block(block) => {
-                    self.durations(&block.children);
-                    &block.duration
-                }
-            };
-            let text = duration_text(cell);
-            self.any_duration |= text.text == "–";
-            self.progress |= text.progress;
-            self.omega |= cell.duration.bounds == Bounds::Omega;
         }
     }
 }

@@ -16,6 +16,7 @@ pub mod explain;
 pub mod form;
 pub mod instances;
 pub mod layout;
+pub mod legend;
 pub mod lint;
 pub mod model;
 pub mod piece;

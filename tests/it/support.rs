@@ -47,5 +47,10 @@ pub(crate) fn in_text(code: &str, text: &str) -> Vec<String> {
 
 /// How many cases a property test runs: 1,000, or what `RUNGBOOK_CASES` says (10,000 in CI).
 pub(crate) fn cases() -> u32 {
-    std::env::var("RUNGBOOK_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(1_000)
+    cases_or(1_000)
+}
+
+/// The same, with another number where nothing is said.
+pub(crate) fn cases_or(usual: u32) -> u32 {
+    std::env::var("RUNGBOOK_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(usual)
 }

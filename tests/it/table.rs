@@ -1,5 +1,6 @@
 //! Tests of `table`.
 
+mod aids;
 mod automaton;
 mod automaton_terms;
 mod bind;

@@ -1,6 +1,7 @@
 //! From the catalogue and what is known of it to a [`Book`].
 
 mod address;
+mod aids;
 mod coverage;
 mod diagrams;
 mod entity;

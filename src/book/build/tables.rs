@@ -1,7 +1,7 @@
 //! Test tables as pages see them.
 
 use super::address::slug;
-use super::{Context, prose};
+use super::{Context, aids, prose};
 use crate::book::view::prose::{Block, Inline};
 use crate::book::view::run::RunView;
 use crate::book::view::table::{
@@ -13,7 +13,7 @@ use crate::library::ItemId;
 use crate::table::explain;
 use crate::table::layout::{self, DurationText, Layout, Role};
 use crate::table::model::ColumnKind;
-use crate::table::{AttachedTable, Table};
+use crate::table::{AttachedTable, Table, legend};
 
 /// The tables of a top-level item and of its members.
 pub(crate) fn of(context: &Context<'_>, top: ItemId) -> Vec<TableView> {
@@ -118,6 +118,9 @@ fn view(context: &Context<'_>, top: ItemId, attached: &AttachedTable, n: usize, 
         rows,
         brackets: brackets(&layout),
         errors: attached.errors.iter().map(|error| error.message.clone()).collect(),
+        legend: aids::signs(&layout.legend),
+        automaton: aids::automaton(table),
+        example: aids::example(attached),
     }
 }
 
@@ -177,6 +180,7 @@ fn rows(context: &Context<'_>, attached: &AttachedTable, layout: &Layout) -> Vec
             .collect(),
         duration: duration(&line.duration),
         duration_meaning: own.get(i).map_or(String::new(), |row| explain::duration(&row.duration)),
+        duration_signs: own.get(i).map_or(Vec::new(), |row| aids::signs(&legend::of_duration(&row.duration))),
         remark: remark(context, &line.remark),
         sentence: sentences.next().unwrap_or_default(),
     };
@@ -205,6 +209,7 @@ fn cell(cell: &layout::LaidCell, column: &str, error: Option<String>) -> CellVie
         same,
         any: cell.role == Role::Any,
         meaning,
+        signs: aids::signs(&cell.signs),
         error,
         failing: None,
     }

@@ -33,6 +33,32 @@ pub struct TableView {
     pub errors: Vec<String>,
     /// The run that violates it.
     pub run: Option<super::run::RunView>,
+    /// The signs that it uses, and what they mean.
+    pub legend: Vec<SignView>,
+    /// Its automaton.
+    pub automaton: AidView,
+    /// A run that conforms to it, as a timing diagram.
+    pub example: AidView,
+}
+
+/// A sign of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct SignView {
+    /// The sign.
+    pub text: &'static str,
+    /// Whether it stands in the column of durations.
+    pub duration: bool,
+    /// What it means.
+    pub meaning: &'static str,
+}
+
+/// A drawing that helps to read a table.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct AidView {
+    /// The drawing; none where it would not help or cannot be had.
+    pub diagram: Option<super::entity::Diagram>,
+    /// What is seen, or why there is nothing; empty where there is nothing to say.
+    pub note: String,
 }
 
 /// A verdict as pages show it.
@@ -100,6 +126,9 @@ pub struct RowView {
     pub duration: String,
     /// What the duration means, for a hover.
     pub duration_meaning: String,
+    /// What the signs of the duration mean.
+    #[serde(skip)]
+    pub duration_signs: Vec<SignView>,
     /// The remark.
     pub remark: Vec<Inline>,
     /// The row as a sentence; empty if there is none.
@@ -119,6 +148,9 @@ pub struct CellView {
     pub any: bool,
     /// What it means, for a hover.
     pub meaning: String,
+    /// What the signs in it mean.
+    #[serde(skip)]
+    pub signs: Vec<SignView>,
     /// What is wrong with it.
     pub error: Option<String>,
     /// What was expected and seen, where the run that violates the table ends here.

@@ -4,11 +4,13 @@ use tera::Value;
 
 use super::prose::{Prose, message};
 use super::value::{list, markup, record};
-use crate::book::view::table::{BracketView, CellView, ColumnView, RowView, TableView};
+use crate::book::view::table::{AidView, BracketView, CellView, ColumnView, RowView, SignView, TableView};
 
 /// The table for its template. `line_href` leads to the listing that shows it, if one does.
 pub(super) fn value(table: &TableView, prose: &Prose<'_>, line_href: Option<String>) -> Value {
     let lanes = lanes(&table.brackets, table.rows.len());
+    let mut signs = Signs { legend: &table.legend, anchor: &table.anchor, met: Vec::new() };
+    let rows = rows(table, &lanes, prose, &mut signs);
     record! {
         name: table.name.as_str(),
         anchor: table.anchor.as_str(),
@@ -36,7 +38,11 @@ pub(super) fn value(table: &TableView, prose: &Prose<'_>, line_href: Option<Stri
         groups: groups(&table.columns),
         columns: columns(&table.columns),
         lanes: lanes.len(),
-        rows: rows(table, &lanes, prose),
+        rows: rows,
+        is_long: table.rows.len() > LONG,
+        legend: legend(table),
+        automaton: aid(&table.automaton),
+        example: aid(&table.example),
         has_remarks: table.rows.iter().any(|row| !row.remark.is_empty()),
         has_sentences: table.rows.iter().any(|row| !row.sentence.is_empty()),
         errors: list(&table.errors, |error| markup(&message(error))),
@@ -75,13 +81,14 @@ fn columns(columns: &[ColumnView]) -> Value {
     Value::from(columns.iter().enumerate().map(column).collect::<Vec<_>>())
 }
 
-fn rows(table: &TableView, lanes: &[Lane<'_>], prose: &Prose<'_>) -> Value {
+fn rows(table: &TableView, lanes: &[Lane<'_>], prose: &Prose<'_>, signs: &mut Signs<'_>) -> Value {
     let row = |(i, row): (usize, &RowView)| {
         record! {
             seq: row.seq.as_str(),
-            cells: cells(row, &table.columns),
+            cells: cells(row, &table.columns, signs),
             duration: row.duration.as_str(),
-            duration_meaning: row.duration_meaning.as_str(),
+            duration_meaning: tip(&row.duration_meaning, &row.duration_signs),
+            duration_sign: signs.first(&row.duration_signs),
             remark: markup(&prose.inlines(&row.remark)),
             sentence: row.sentence.as_str(),
             brackets: Value::from(lanes.iter().filter_map(|lane| bracket_cell(lane, i)).collect::<Vec<_>>()),
@@ -91,16 +98,17 @@ fn rows(table: &TableView, lanes: &[Lane<'_>], prose: &Prose<'_>) -> Value {
 }
 
 /// One cell for each column, even where the row has fewer.
-fn cells(row: &RowView, columns: &[ColumnView]) -> Value {
+fn cells(row: &RowView, columns: &[ColumnView], signs: &mut Signs<'_>) -> Value {
     let cell = |(i, column): (usize, &ColumnView)| match row.cells.get(i) {
-        Some(cell) => filled(cell, column, begins_group(columns, i)),
+        Some(cell) => filled(cell, column, (begins_group(columns, i), 2 * i >= columns.len()), signs),
         None => record! { edge: begins_group(columns, i), group: column.group, text: "", effective: "", same: false,
-        any: false, meaning: "", error: Value::none(), failing: Value::none() },
+        any: false, meaning: "", sign: Value::none(), far: false, error: Value::none(), failing: Value::none() },
     };
     Value::from(columns.iter().enumerate().map(cell).collect::<Vec<_>>())
 }
 
-fn filled(cell: &CellView, column: &ColumnView, edge: bool) -> Value {
+fn filled(cell: &CellView, column: &ColumnView, (edge, far): (bool, bool), signs: &mut Signs<'_>) -> Value {
+    let meaning = if cell.any { "" } else { cell.meaning.as_str() };
     record! {
         edge: edge,
         group: column.group,
@@ -108,10 +116,62 @@ fn filled(cell: &CellView, column: &ColumnView, edge: bool) -> Value {
         effective: cell.effective.as_str(),
         same: cell.same,
         any: cell.any,
-        meaning: cell.meaning.as_str(),
+        meaning: tip(meaning, &cell.signs),
+        sign: signs.first(&cell.signs),
+        far: far,
         error: cell.error.as_deref(),
         failing: cell.failing.as_deref(),
     }
+}
+
+/// Tables with more rows scroll in a box of their own, below their header.
+const LONG: usize = 18;
+
+/// What is told where a pointer is over a cell or the keyboard has come to it: its meaning, then that of its signs.
+fn tip(meaning: &str, signs: &[SignView]) -> String {
+    let lines = signs.iter().map(|sign| format!("{}  {}", sign.text, sign.meaning));
+    let first = (!meaning.is_empty()).then(|| meaning.to_owned());
+    first.into_iter().chain(lines).collect::<Vec<_>>().join("\n")
+}
+
+/// The signs of a table as they are met: the first cell that shows one is a stop of the keyboard. A stop at every cell would make
+/// thousands of them.
+struct Signs<'a> {
+    legend: &'a [SignView],
+    anchor: &'a str,
+    met: Vec<SignView>,
+}
+
+impl Signs<'_> {
+    /// The entries of the legend for signs that were not met before, as ids; none if there are none.
+    fn first(&mut self, signs: &[SignView]) -> Option<String> {
+        let mut ids = Vec::new();
+        for sign in signs.iter().filter(|sign| !self.met.contains(sign)).copied().collect::<Vec<_>>() {
+            self.met.push(sign);
+            ids.extend(self.legend.iter().position(|known| *known == sign).map(|at| sign_id(self.anchor, at)));
+        }
+        (!ids.is_empty()).then(|| ids.join(" "))
+    }
+}
+
+fn sign_id(anchor: &str, at: usize) -> String {
+    format!("{anchor}-sign-{}", at + 1)
+}
+
+fn legend(table: &TableView) -> Value {
+    let sign = |(at, sign): (usize, &SignView)| {
+        record! {
+            id: sign_id(&table.anchor, at),
+            text: sign.text,
+            duration: sign.duration,
+            meaning: sign.meaning,
+        }
+    };
+    Value::from(table.legend.iter().enumerate().map(sign).collect::<Vec<_>>())
+}
+
+fn aid(aid: &AidView) -> Value {
+    record! { svg: aid.diagram.as_ref().map(|diagram| markup(&diagram.svg)), note: aid.note.as_str() }
 }
 
 /// A column of brackets that do not overlap.

@@ -20,8 +20,6 @@ pub(in crate::table) mod meet;
 mod ranges;
 mod shape;
 
-use std::ops::ControlFlow;
-
 use super::duration::Repeat;
 use super::model::Table;
 
@@ -104,30 +102,6 @@ impl Automaton {
         }
         let shape = shape::Shape::of(table)?;
         edges::connect(shape)
-    }
-
-    /// Whether no two tokens are ever alive at once, so that one counter for each row and block serves.
-    ///
-    /// `exclusive` says of two leaves (in their first or a later cycle) whether no inputs satisfy both.
-    pub fn is_deterministic(&self, exclusive: &dyn Fn(Site, Site) -> bool) -> bool {
-        let apart = |edges: &[Edge]| {
-            let sites: Vec<Site> = edges.iter().filter_map(Edge::site).collect();
-            let mut pairs = (0..sites.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-            pairs.try_for_each(|(i, j)| {
-                if exclusive(sites[i], sites[j]) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            })
-        };
-        self.edges.iter().chain(std::iter::once(&self.entries)).all(|edges| apart(edges).is_continue())
-    }
-
-    /// How many bits the live tokens need, one for each row with each of its counts, where the table is not deterministic.
-    #[must_use]
-    pub fn bits(&self) -> u128 {
-        let leaf = |leaf: &Leaf| {
-            let blocks = leaf.loops.iter().map(|index| u128::from(self.loops[*index].saturation));
-            blocks.fold(u128::from(leaf.saturation), u128::saturating_mul)
-        };
-        self.leaves.iter().map(leaf).fold(0, u128::saturating_add)
     }
 }
 

@@ -1,10 +1,9 @@
 //! The lints that need to know which values there are: cells that contradict, rows and tables that no inputs reach, rows that
-//! the inputs do not tell apart. What a solver cannot decide in time is not reported.
+//! the inputs do not tell apart. What a solver cannot decide with the allowed effort is not reported.
 
 use std::collections::BTreeMap;
-use std::time::Duration;
 
-use super::{Moment, Puzzle, Session, literal};
+use super::{Effort, Moment, Puzzle, Session, literal};
 use crate::diagnostic::Finding;
 use crate::logic::term::Term;
 use crate::table::automaton::meet::{contradict, gives_way};
@@ -14,7 +13,7 @@ use crate::table::codes;
 use crate::table::model::{Row, Table};
 
 /// No table is thought about for longer.
-const PATIENCE: Duration = Duration::from_secs(2);
+const EFFORT: Effort = Effort { conflicts: 2_000, misses: 2, work: 4_000_000 };
 
 /// So many overlaps are told of one table.
 const MOST_OVERLAPS: usize = 5;
@@ -29,7 +28,7 @@ pub fn lint(table: &Table, bound: &BoundTable) -> Vec<Finding> {
     let mut puzzle = Puzzle::new(bound, false);
     let Some(cells) = cells(&mut puzzle) else { return Vec::new() };
     let parts: Vec<Term> = cells.iter().flatten().flatten().map(|(_, term)| *term).collect();
-    let session = puzzle.session(&parts, PATIENCE);
+    let session = puzzle.session(&parts, EFFORT);
     let mut linter = Linter { table, rows: table.rows(), bound, automaton, puzzle, session, cells, out: Vec::new() };
     linter.contradictions();
     linter.reachability();

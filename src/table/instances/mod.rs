@@ -5,9 +5,12 @@
 //! where that satisfies the cells; else they may change in every cycle. A plan that nothing satisfies names the cells that
 //! contradict.
 
+mod example;
 mod plan;
 mod solve;
 pub mod tcunit;
+
+pub use example::example;
 
 use super::automaton::{Automaton, NoAutomaton};
 use super::bind::BoundTable;
@@ -75,7 +78,7 @@ pub enum NoInstance {
     Unusable(String),
     /// Nothing satisfies the table: the cells that contradict, by row and column.
     Contradiction(Vec<(usize, usize)>),
-    /// It was not decided in time.
+    /// It was not decided with the effort that is allowed.
     Undecided,
 }
 
@@ -84,13 +87,7 @@ pub enum NoInstance {
 /// # Errors
 /// Why there are none.
 pub fn instances(table: &Table, bound: &BoundTable, options: &Options) -> Result<Vec<Instance>, NoInstance> {
-    if bound.errors > 0 {
-        return Err(NoInstance::Unusable("the table has errors".to_owned()));
-    }
-    if let Some(unsupported) = bound.unsupported.first() {
-        return Err(NoInstance::Unusable(format!("{} is not modelled", unsupported.what)));
-    }
-    let automaton = Automaton::build(table).map_err(|error| NoInstance::Unusable(reason(error).to_owned()))?;
+    let automaton = unrolled(table, bound)?;
     let planner = Planner { automaton: &automaton, forever: options.forever };
     let mut out: Vec<Instance> = Vec::new();
     let mut failure = NoInstance::Unusable("no way leads through the table".to_owned());
@@ -98,7 +95,7 @@ pub fn instances(table: &Table, bound: &BoundTable, options: &Options) -> Result
         if out.len() >= options.count {
             break;
         }
-        match solve::solve(&automaton, bound, &plan, &goals) {
+        match solve::solve(&automaton, bound, &plan, &goals, solve::Limits::default()) {
             Ok((steps, globals)) => {
                 let known = out.iter().any(|other| other.steps == steps && other.globals == globals);
                 let name = format!("{} {}", table.name, out.len() + 1);
@@ -110,6 +107,16 @@ pub fn instances(table: &Table, bound: &BoundTable, options: &Options) -> Result
         }
     }
     if out.is_empty() { Err(failure) } else { Ok(out) }
+}
+
+fn unrolled(table: &Table, bound: &BoundTable) -> Result<Automaton, NoInstance> {
+    if bound.errors > 0 {
+        return Err(NoInstance::Unusable("the table has errors".to_owned()));
+    }
+    if let Some(unsupported) = bound.unsupported.first() {
+        return Err(NoInstance::Unusable(format!("{} is not modelled", unsupported.what)));
+    }
+    Automaton::build(table).map_err(|error| NoInstance::Unusable(reason(error).to_owned()))
 }
 
 const fn reason(error: NoAutomaton) -> &'static str {
@@ -124,6 +131,8 @@ const fn reason(error: NoAutomaton) -> &'static str {
 /// Where a value that may be chosen is pushed to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Goal {
+    /// To zero, or the smallest value above it.
+    Near,
     Low,
     High,
     /// Drawn from a seed.
@@ -201,6 +210,12 @@ fn pairwise(planner: &Planner<'_>, bound: &BoundTable) -> Vec<(Plan, Goals)> {
         }
     }
     out
+}
+
+/// The variable that a column is bound to, if it is a plain one, as an index into [`BoundTable::variables`].
+#[must_use]
+pub fn variable(of: &Table, bound: &BoundTable, column: usize) -> Option<usize> {
+    solve::variable(of, bound, column)
 }
 
 /// The instance as a table of its own.

@@ -166,6 +166,28 @@ impl Planner<'_> {
         out
     }
 
+    /// One way through as many rows as it meets: from each on to the first one that it has not seen.
+    pub(super) fn tour(&self) -> Plan {
+        let mut visits: Vec<Visit> = Vec::new();
+        while visits.len() < MAX_VISITS {
+            let last = visits.last();
+            let unseen = |leaf: &usize| !visits.iter().any(|visit| visit.leaf == *leaf);
+            let mut ways = (0..self.automaton.leaves.len())
+                .filter(unseen)
+                .filter_map(|leaf| self.search(last.cloned(), &|visit| visit.leaf == leaf));
+            match ways.next() {
+                Some(more) => visits.extend(more),
+                None => break,
+            }
+        }
+        self.finished(visits)
+    }
+
+    /// The same way, where each visit lasts up to `cycles` if it may.
+    pub(super) fn lasting(&self, plan: &Plan, cycles: u64) -> Plan {
+        self.timed(plan, &|_, (low, high)| low.max(cycles.min(high)))
+    }
+
     /// Ways such that every row is on one of them for its shortest and on one for its longest time.
     pub(super) fn covering(&self) -> Vec<Plan> {
         let mut out: Vec<Plan> = Vec::new();
@@ -189,10 +211,13 @@ impl Planner<'_> {
 
     /// The same way, where the visits that `long` says last their longest time. A visit that could not be left then keeps its own.
     pub(super) fn stretched(&self, plan: &Plan, long: &dyn Fn(usize) -> bool) -> Plan {
+        self.timed(plan, &|at, (low, high)| if long(at) { high } else { low })
+    }
+
+    fn timed(&self, plan: &Plan, cycles: &dyn Fn(usize, (u64, u64)) -> u64) -> Plan {
         let mut plan = plan.clone();
         for at in 0..plan.visits.len() {
-            let (low, high) = self.bounds(plan.visits[at].leaf);
-            plan.visits[at].cycles = if long(at) { high } else { low };
+            plan.visits[at].cycles = cycles(at, self.bounds(plan.visits[at].leaf));
             let (leaf, cycles, loops) = (plan.visits[at].leaf, plan.visits[at].cycles, plan.visits[at].loops.clone());
             if let Some(next) = plan.visits.get_mut(at + 1) {
                 next.before = Some((leaf, cycles, loops));

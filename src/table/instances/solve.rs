@@ -1,7 +1,6 @@
 //! The values of a plan.
 
 use std::fmt::Write;
-use std::time::Duration;
 
 use super::plan::{Plan, Visit, admits};
 use super::{Goal, Goals, Instance, NoInstance, Step};
@@ -9,15 +8,23 @@ use crate::logic::term::Term;
 use crate::semantics::scalar::Scalar;
 use crate::table::automaton::{Automaton, Site, Target};
 use crate::table::bind::BoundTable;
-use crate::table::decide::{Moment, Puzzle, Session, literal};
+use crate::table::decide::{Effort, Moment, Puzzle, Session, literal};
 use crate::table::model::{Subject, Table};
 use crate::table::write::pipe::header_cell;
 
-/// No plan is thought about for longer.
-const PATIENCE: Duration = Duration::from_secs(10);
+/// How long one plan is thought about.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    pub(super) effort: Effort,
+    /// A plan of more cycles is not unrolled cycle by cycle.
+    pub(super) cycles: u64,
+}
 
-/// A plan of more cycles is not unrolled cycle by cycle.
-const MOST_CYCLES: u64 = 2_000;
+impl Default for Limits {
+    fn default() -> Self {
+        Self { effort: Effort { conflicts: 20_000, misses: 3, work: 2_000_000_000 }, cycles: 2_000 }
+    }
+}
 
 /// Some cycles without a change.
 #[derive(Clone, Copy, Debug)]
@@ -36,12 +43,12 @@ pub(super) fn solve(
     bound: &BoundTable,
     plan: &Plan,
     goals: &Goals,
+    limits: Limits,
 ) -> Result<(Vec<Step>, Vec<u64>), NoInstance> {
-    match attempt(automaton, bound, plan, goals, false) {
-        Err(NoInstance::Contradiction(_))
-            if plan.visits.iter().map(|visit| visit.cycles).sum::<u64>() <= MOST_CYCLES =>
-        {
-            attempt(automaton, bound, plan, goals, true)
+    let cycles = plan.visits.iter().map(|visit| visit.cycles).fold(0, u64::saturating_add);
+    match attempt(automaton, bound, plan, goals, (false, limits.effort)) {
+        Err(NoInstance::Contradiction(_)) if cycles <= limits.cycles => {
+            attempt(automaton, bound, plan, goals, (true, limits.effort))
         }
         other => other,
     }
@@ -70,7 +77,7 @@ fn attempt(
     bound: &BoundTable,
     plan: &Plan,
     goals: &Goals,
-    each: bool,
+    (each, effort): (bool, Effort),
 ) -> Result<(Vec<Step>, Vec<u64>), NoInstance> {
     let stretches = stretches(automaton, plan, each);
     let mut puzzle = Puzzle::new(bound, true);
@@ -82,7 +89,7 @@ fn attempt(
         start += i64::try_from(visit.cycles).unwrap_or(0);
     }
     let terms: Vec<Term> = parts.iter().map(|(term, _)| *term).collect();
-    let mut session = puzzle.session(&terms, PATIENCE);
+    let mut session = puzzle.session(&terms, effort);
     match session.ask(&terms, &[]) {
         Some(true) => {}
         Some(false) => {
@@ -180,6 +187,7 @@ fn choose(puzzle: &Puzzle<'_>, session: &mut Session, terms: &[Term], stretches:
         for (at, bit) in bits.iter().enumerate().rev() {
             let sign = at + 1 == bits.len() && (scalar.is_signed() || matches!(scalar, Scalar::Real(_)));
             let wanted = match goal {
+                Goal::Near => false,
                 Goal::Low => sign || matches!(scalar, Scalar::Real(_)),
                 Goal::High => !sign,
                 Goal::Drawn(seed) => seed >> at & 1 == 1,

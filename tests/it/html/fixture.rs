@@ -384,6 +384,7 @@ fn row(seq: &str, cells: &[&str], duration: &str, remark: &str) -> RowView {
         same: *text == "\"",
         any: *text == "-",
         meaning: format!("the value is {text}"),
+        signs: Vec::new(),
         error: None,
         failing: None,
     };
@@ -392,6 +393,7 @@ fn row(seq: &str, cells: &[&str], duration: &str, remark: &str) -> RowView {
         cells: cells.iter().map(cell).collect(),
         duration: duration.to_owned(),
         duration_meaning: format!("lasts {duration} cycles"),
+        duration_signs: Vec::new(),
         remark: if remark.is_empty() { Vec::new() } else { text(remark) },
         sentence: if remark.is_empty() { String::new() } else { format!("While {remark}, the outputs hold.") },
     }
@@ -412,6 +414,9 @@ fn table(name: &str, line: u32, verdict: VerdictView, columns: Vec<ColumnView>, 
         brackets: Vec::new(),
         errors: Vec::new(),
         run: None,
+        legend: Vec::new(),
+        automaton: AidView::default(),
+        example: AidView::default(),
     }
 }
 

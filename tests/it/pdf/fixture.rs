@@ -9,7 +9,7 @@ use rungbook::book::view::finding::{CodeCount, FindingView, ReadingView, Skipped
 use rungbook::book::view::prose::{Block, Href, Inline, ListItem};
 use rungbook::book::view::run::{RunCycle, RunLine, RunValue, RunView};
 use rungbook::book::view::table::{
-    BracketView, CellView, ColumnView, CoverageView, MissedView, RowView, TableView, VerdictView,
+    AidView, BracketView, CellView, ColumnView, CoverageView, MissedView, RowView, TableView, VerdictView,
 };
 use rungbook::book::view::{Book, Chapter, Entry, FolderView, Front, IndexEntry, LibraryView, Totals};
 use rungbook::figure::{Drawing, inheritance, interface};
@@ -101,7 +101,7 @@ fn entry(name: &str, type_: &str) -> interface::Entry {
 fn cell(text: &str) -> CellView {
     let (same, any) = (text.is_empty(), text == "-");
     let (text, effective) = (text.to_owned(), text.to_owned());
-    CellView { text, effective, same, any, meaning: String::new(), error: None, failing: None }
+    CellView { text, effective, same, any, meaning: String::new(), signs: Vec::new(), error: None, failing: None }
 }
 
 fn row(seq: &str, cells: &[&str], duration: &str, remark: &str) -> RowView {
@@ -110,6 +110,7 @@ fn row(seq: &str, cells: &[&str], duration: &str, remark: &str) -> RowView {
         cells: cells.iter().map(|text| cell(text)).collect(),
         duration: duration.to_owned(),
         duration_meaning: String::new(),
+        duration_signs: Vec::new(),
         remark: if remark.is_empty() { Vec::new() } else { text(remark) },
         sentence: String::new(),
     }
@@ -140,6 +141,9 @@ pub(super) fn table(name: &str, columns: Vec<ColumnView>, rows: Vec<RowView>, br
         brackets,
         errors: Vec::new(),
         run: None,
+        legend: Vec::new(),
+        automaton: AidView::default(),
+        example: AidView::default(),
     }
 }
 

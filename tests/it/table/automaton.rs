@@ -10,6 +10,8 @@ use proptest::test_runner::{Config, TestRunner};
 use rungbook::table::automaton::game::{Game, Judge, Standing};
 use rungbook::table::automaton::{Automaton, Site};
 
+use crate::support::cases;
+
 /// How often something is repeated: at least, at most, or for ever.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Tau {
@@ -384,11 +386,6 @@ fn agree(trees: &[Tree], constraints: &[Letters], runs: &[Vec<(u8, u8)>]) -> Res
         return Ok(true);
     }
     Ok(false)
-}
-
-/// How many cases to run: 1,000, or what `RUNGBOOK_CASES` says (10,000 in CI).
-pub(super) fn cases() -> u32 {
-    std::env::var("RUNGBOOK_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(1_000)
 }
 
 #[test]

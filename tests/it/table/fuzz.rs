@@ -177,7 +177,7 @@ fn no_text_is_a_crash() {
     let tabled = words(&WORDS).prop_map(|text| format!("@gtt A\n| # | in X | out Y | dur | repeat |\n| {text}"));
     let grouped = words(&WORDS).prop_map(|text| format!("table T {{ var input x : INT group {{ row {{ {text}"));
     let texts = prop_oneof![words(&WORDS), words(&XML), begun, tabled, grouped, ".{0,60}"];
-    let config = Config { cases: super::automaton::cases(), failure_persistence: None, ..Config::default() };
+    let config = Config { cases: crate::support::cases(), failure_persistence: None, ..Config::default() };
     if let Err(error) = TestRunner::new(config).run(&texts, |text| {
         everything(&text);
         Ok(())

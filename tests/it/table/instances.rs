@@ -159,6 +159,19 @@ fn a_table_without_an_instance_names_the_cells_that_contradict() {
 }
 
 #[test]
+fn the_example_goes_through_every_row_and_is_always_the_same() {
+    let project = project(TABLE);
+    let bound = project.tables[0].bound.clone().expect("its block is known");
+    let table = &project.tables[0].table;
+    let found = instances::example(table, &bound).expect("it has one");
+    let automaton = Automaton::build(table).expect("it has one");
+    wins(&automaton, &bound, &found);
+    let rows: std::collections::BTreeSet<usize> = found.steps.iter().map(|step| step.row).collect();
+    assert_eq!(rows.into_iter().collect::<Vec<_>>(), [0, 1, 2, 3]);
+    assert_eq!(instances::example(table, &bound), Ok(found));
+}
+
+#[test]
 fn instances_are_tables_that_read_and_bind_again() {
     let (project, found) = of(TABLE, Strategy::Covering);
     let attached = &project.tables[0];

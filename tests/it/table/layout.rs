@@ -2,6 +2,7 @@
 
 use super::pipe;
 use rungbook::table::layout::{Role, layout};
+use rungbook::table::legend::Sign;
 
 #[test]
 fn inputs_come_first_blanks_merge_and_blocks_have_brackets() {
@@ -24,5 +25,8 @@ fn inputs_come_first_blanks_merge_and_blocks_have_brackets() {
         laid.brackets.iter().map(|b| (b.depth, b.first, b.last, b.label.text.as_str())).collect();
     assert_eq!(brackets, [(0, 0, 2, "ω"), (1, 0, 1, "≤3")]);
     assert_eq!(laid.rows[0].cells[1].role, Role::Condition);
-    assert!(laid.legend.iter().any(|(sign, _)| *sign == "√c"));
+    let signs: Vec<&str> = laid.legend.iter().map(|sign| sign.text()).collect();
+    assert_eq!(signs, ["–", "(blank)", "≥ e", "√c", "X[-n]", "[m, n]", "p", "ω", "⎤"]);
+    assert_eq!(laid.rows[0].cells[0].signs, [Sign::Trigger]);
+    assert_eq!(laid.rows[1].cells[1].signs, [Sign::Blank]);
 }

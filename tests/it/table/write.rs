@@ -179,8 +179,7 @@ fn truncate(nodes: &mut [Node], columns: usize) {
 
 #[test]
 fn every_form_gives_the_model_back() {
-    let config =
-        Config { cases: super::automaton::cases().min(20_000) / 4, failure_persistence: None, ..Config::default() };
+    let config = Config { cases: crate::support::cases_or(250), failure_persistence: None, ..Config::default() };
     if let Err(error) = TestRunner::new(config).run(&source(), |text| same(&text)) {
         panic!("{error}");
     }
