@@ -98,6 +98,9 @@ pub(crate) struct BuildArgs {
     /// Write the model, OUT/model.json (its schema: `rungbook schema`)
     #[arg(long)]
     pub(crate) json: bool,
+    /// Decide first what the store of verdicts does not know, as `rungbook verify` does
+    #[arg(long)]
+    pub(crate) verify: bool,
     /// Add the evidence report as a page
     #[arg(long)]
     pub(crate) evidence: bool,
@@ -123,6 +126,9 @@ pub(crate) struct CheckArgs {
     /// Allow the findings of this file [default: as configured]
     #[arg(long, value_name = "FILE")]
     pub(crate) baseline: Option<PathBuf>,
+    /// Decide first what the store of verdicts does not know, as `rungbook verify` does
+    #[arg(long)]
+    pub(crate) verify: bool,
     /// Write the baseline: what is found now is allowed from now on
     #[arg(long)]
     pub(crate) write_baseline: bool,
@@ -218,6 +224,9 @@ pub(crate) struct BundleArgs {
     /// The previous release, for the page of changes: a bundle, a folder, or a git revision
     #[arg(long, value_name = "OLD")]
     pub(crate) previous: Option<String>,
+    /// Decide first what the store of verdicts does not know, as `rungbook verify` does
+    #[arg(long)]
+    pub(crate) verify: bool,
     /// Leave the PDFs out
     #[arg(long)]
     pub(crate) no_pdf: bool,

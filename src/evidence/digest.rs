@@ -36,6 +36,12 @@ impl Digest {
         (lower && hex::decode_to_slice(hex, &mut bytes).is_ok()).then_some(Self(bytes))
     }
 
+    /// Its 32 bytes.
+    #[must_use]
+    pub const fn bytes(&self) -> &[u8; 32] {
+        &self.0
+    }
+
     /// Its 64 digits.
     #[must_use]
     pub fn hex(&self) -> String {

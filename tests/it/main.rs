@@ -2,6 +2,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests write and read files of their own")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "tests report what they measured or skipped")]
 
+mod archival;
 mod cli;
 mod corpora;
 mod docs;

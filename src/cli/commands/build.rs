@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use crate::book::view::Book;
 use crate::cli::args::BuildArgs;
+use crate::cli::commands::verify;
 use crate::cli::report::{progress::Progress, summary::summary};
 use crate::cli::{Exit, Failure, release, say, stamp, store, tree, write};
 use crate::config::Settings;
+use crate::evidence::record::{Answer, Record};
 use crate::pipeline::{self, Project};
 
 /// What is to be written.
@@ -31,12 +33,16 @@ pub(crate) fn run(args: &BuildArgs) -> Result<Exit, Failure> {
     let output = args.output.clone().unwrap_or_else(|| dir.join("target").join("rungbook"));
     let output = std::path::absolute(&output).map_err(|error| Failure(error.to_string()))?;
     let progress = Progress::new(args.tree.quiet);
-    let (mut project, settings) = tree::read(&args.tree, Some(&output), &progress)?;
+    let mut read = tree::read(&args.tree, Some(&output), &progress)?;
+    if args.verify {
+        read = verify::settle(&dir, read, &progress)?;
+    }
+    let (mut project, settings) = read;
     let outputs = Outputs::new(args, &settings);
     let stamp = stamp::stamp(&dir);
     let known = store::known(&dir, &project, &settings, &stamp)?;
-    pipeline::know(&mut project, &settings, known.into_iter().map(|(_, answer)| answer).collect());
-    add_pages(args, &dir, &mut project, &settings, &stamp)?;
+    pipeline::know(&mut project, &settings, known.iter().map(|(_, answer)| answer.clone()).collect());
+    add_pages(args, &dir, &mut project, &settings, &stamp, &known)?;
     progress.event(pipeline::Event::Stage { name: "book", total: 0 });
     let book = pipeline::book(&project, &settings, &stamp);
     let written = write_all(&outputs, &output, &project, &book, &settings, &progress)?;
@@ -55,17 +61,17 @@ fn add_pages(
     project: &mut Project,
     settings: &Settings,
     stamp: &pipeline::Stamp,
+    records: &[(Record, Answer)],
 ) -> Result<(), Failure> {
     if !args.evidence && args.previous.is_none() {
         return Ok(());
     }
-    let records = store::known(dir, project, settings, stamp)?;
     let changes = args.previous.as_deref().map(|old| {
-        let new = pipeline::snapshot::snapshot(project, settings, stamp, &records);
+        let new = pipeline::snapshot::snapshot(project, settings, stamp, records);
         release::snapshot(old, dir).map(|old| crate::evidence::diff::compare(&old, &new))
     });
     let changes = changes.transpose()?;
-    let mut pages = pipeline::evidence::pages(project, settings, stamp, &records, changes.as_ref());
+    let mut pages = pipeline::evidence::pages(project, settings, stamp, records, changes.as_ref());
     if !args.evidence {
         pages.remove(0);
     }

@@ -2,24 +2,28 @@
 #![expect(clippy::disallowed_methods, reason = "cli reads the baseline")]
 
 use std::fs;
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use crate::audit;
 use crate::cli::args::{CheckArgs, Format, Level};
+use crate::cli::commands::verify;
 use crate::cli::report::outcome::{Input, Outcome, Standing};
-use crate::cli::report::{self, progress::Progress, text::Reporter};
+use crate::cli::report::{self, progress::Progress, text, verdict};
 use crate::cli::{Exit, Failure, print, say, stamp, store, tree, write};
 use crate::config::Settings;
-use crate::diagnostic::{Finding, Severity};
+use crate::diagnostic::Severity;
 use crate::evidence::policy::baseline::Baseline;
+use crate::evidence::record::{Answer, Record};
 use crate::pipeline;
-use crate::text::Files;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let progress = Progress::new(args.tree.quiet);
     let dir = tree::folder(&args.tree.dir)?;
-    let (mut project, settings) = tree::read(&args.tree, None, &progress)?;
+    let mut read = tree::read(&args.tree, None, &progress)?;
+    if args.verify {
+        read = verify::settle(&dir, read, &progress)?;
+    }
+    let (mut project, settings) = read;
     let stamp = stamp::stamp(&dir);
     let records = store::known(&dir, &project, &settings, &stamp)?;
     let answers = records.iter().map(|(_, answer)| answer.clone()).collect();
@@ -41,11 +45,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
         write::file(file, report::render(&outcome, *format)?.as_bytes())?;
     }
     match args.format {
-        Format::Text => print_text(&outcome),
+        Format::Text => text::findings(outcome.new_ones().map(|reported| reported.finding), outcome.files),
         format => print(&report::render(&outcome, format)?),
     }
     if !args.tree.quiet {
-        say(&totals(&outcome));
+        say(&totals(&outcome, &records));
     }
     Ok(if outcome.failed() { Exit::Findings } else { Exit::Ok })
 }
@@ -84,26 +88,8 @@ fn write_baseline(
     Ok(Exit::Ok)
 }
 
-fn print_text(outcome: &Outcome<'_>) {
-    let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-    let reporter = Reporter::new(colour);
-    let mut out = String::new();
-    for reported in outcome.new_ones() {
-        out.push_str(&reporter.render(reported.finding, outcome.files));
-        out.push_str("\n\n");
-        if out.len() > 1 << 16 {
-            print(&out);
-            out.clear();
-        }
-    }
-    print(&out);
-}
-
-fn totals(outcome: &Outcome<'_>) -> String {
-    let [errors, warnings, infos] =
-        [Severity::Error, Severity::Warning, Severity::Info].map(|severity| outcome.count(severity, "new"));
-    let mut out =
-        format!("{errors} errors, {warnings} warnings, {infos} infos; `rungbook explain CODE` tells what one means\n");
+fn totals(outcome: &Outcome<'_>, records: &[(Record, Answer)]) -> String {
+    let mut out = text::counts(|severity| outcome.count(severity, "new"));
     let standing = |name: &str| outcome.findings.iter().filter(|found| found.standing.name() == name).count();
     let others: Vec<String> = Standing::NAMES
         .iter()
@@ -118,25 +104,13 @@ fn totals(outcome: &Outcome<'_>) -> String {
     if outcome.gone > 0 {
         out.push_str(&format!("{} of the baseline are gone; `--write-baseline` keeps them out\n", outcome.gone));
     }
+    let verdicts = records.iter().map(|(record, _)| &record.verdict);
+    if !records.is_empty() {
+        out.push_str(&format!("{}\n{}", verdict::counted(verdicts.clone()), verdict::advice(verdicts)));
+    }
     for line in &outcome.gate {
         let mark = if line.passed { "passed" } else { "failed" };
         out.push_str(&format!("gate {}: {mark}: wanted {}, found {}\n", line.key, line.wanted, line.found));
     }
     out
-}
-
-/// Prints findings for people.
-pub(crate) fn print_findings(findings: &[Finding], files: &Files) {
-    let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-    let reporter = Reporter::new(colour);
-    for finding in findings {
-        print(&format!("{}\n\n", reporter.render(finding, files)));
-    }
-}
-
-/// How many findings there are, in a line.
-pub(crate) fn count(findings: &[Finding]) -> String {
-    let count = |severity| findings.iter().filter(|finding| finding.severity == severity).count();
-    let [errors, warnings, infos] = [Severity::Error, Severity::Warning, Severity::Info].map(count);
-    format!("{errors} errors, {warnings} warnings, {infos} infos; `rungbook explain CODE` tells what one means")
 }

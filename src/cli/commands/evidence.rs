@@ -6,7 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::cli::args::{BundleArgs, BundleVerifyArgs, EvidenceCommand};
-use crate::cli::report::progress::Progress;
+use crate::cli::commands::verify as decide;
+use crate::cli::report::{progress::Progress, verdict};
 use crate::cli::{Exit, Failure, print, release, say, stamp, store, tree, write};
 use crate::config::Settings;
 use crate::evidence::bundle::sign::{Public, Signer};
@@ -41,7 +42,11 @@ fn pack(args: &BundleArgs) -> Result<Exit, Failure> {
     let dir = tree::folder(&args.tree.dir)?;
     let signer = args.key.as_deref().map(read_signer).transpose()?;
     let output = std::path::absolute(&args.output).map_err(|error| failure(&args.output, error))?;
-    let (mut project, settings) = tree::read(&args.tree, Some(&output), &progress)?;
+    let mut read = tree::read(&args.tree, Some(&output), &progress)?;
+    if args.verify {
+        read = decide::settle(&dir, read, &progress)?;
+    }
+    let (mut project, settings) = read;
     let stamp = stamp::stamp(&dir);
     let records = store::known(&dir, &project, &settings, &stamp)?;
     let offered = pipeline::snapshot::snapshot(&project, &settings, &stamp, &records);
@@ -65,13 +70,15 @@ fn pack(args: &BundleArgs) -> Result<Exit, Failure> {
         sources: settings.evidence.sources,
         files,
     };
+    let verdicts: Vec<record::Verdict> = contents.records.iter().map(|(record, _)| record.verdict.clone()).collect();
     let bytes = bundle(contents, signer.as_ref()).map_err(Failure)?;
     progress.event(pipeline::Event::Done);
     write::file(&output, &bytes)?;
     if !args.tree.quiet {
         let signed =
             signer.map_or_else(|| "not signed".to_owned(), |key| format!("signed by {}", key.public().fingerprint()));
-        say(&format!("`{}`: {} tables, {signed}", args.output.display(), project.tables.len()));
+        let (counted, advice) = (verdict::counted(verdicts.iter()), verdict::advice(verdicts.iter()));
+        say(&format!("`{}`: {counted}; {signed}\n{advice}", args.output.display()));
     }
     Ok(Exit::Ok)
 }

@@ -45,7 +45,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
     if let Some(folder) = &args.aiger {
         return obligations(&job.project, &chosen, folder);
     }
-    let done = decide(&job, &chosen, args, &progress)?;
+    let done = decide(&job, &chosen, args.fresh, &progress)?;
     match args.format {
         Output::Json => print(&format!("{:#}\n", verdict::json(&job.project, &done))),
         Output::Text => print(&verdict::text(&job.project, &done)),
@@ -54,6 +54,23 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
         say(&verdict::totals(&done));
     }
     Ok(verdict::exit(&done))
+}
+
+/// Decides what the store of the folder `dir` does not know, for a command that goes on with the verdicts.
+///
+/// # Errors
+/// If the folder cannot be read, or the store not written.
+pub(crate) fn settle(
+    dir: &Path,
+    (project, settings): (Project, Settings),
+    progress: &Progress,
+) -> Result<(Project, Settings), Failure> {
+    let disk = Disk::new(dir).map_err(|error| Failure(format!("`{}`: {error}", dir.display())))?;
+    let store = Some(Store::new(dir, &settings));
+    let job = Job { project, settings, fs: Box::new(disk), store, dir: dir.to_owned() };
+    let all: Vec<usize> = (0..job.project.tables.len()).collect();
+    decide(&job, &all, false, progress)?;
+    Ok((job.project, job.settings))
 }
 
 /// A folder with its configuration, or some files.
@@ -172,9 +189,9 @@ fn obligations(project: &Project, chosen: &[usize], folder: &Path) -> Result<Exi
 }
 
 /// Decides the tables, several at a time; each verdict is kept as soon as it is there.
-fn decide(job: &Job, chosen: &[usize], args: &VerifyArgs, progress: &Progress) -> Result<Vec<verdict::Line>, Failure> {
+fn decide(job: &Job, chosen: &[usize], fresh: bool, progress: &Progress) -> Result<Vec<verdict::Line>, Failure> {
     let stamp = stamp::stamp(&job.dir);
-    let known = |claim: &_, _: &_| match (&job.store, args.fresh) {
+    let known = |claim: &_, _: &_| match (&job.store, fresh) {
         (Some(store), false) => store.answer(claim),
         _ => answer::nothing(),
     };

@@ -1,9 +1,10 @@
-//! `check --format json`: everything as one JSON object.
+//! `check --format json` and `table check --format json`: everything as one JSON object.
 
 use serde_json::{Map, Value, json};
 
 use super::outcome::{Outcome, Reported, Standing, TableLine};
-use crate::diagnostic::Severity;
+use crate::diagnostic::{Finding, Severity};
+use crate::text::Files;
 
 /// `{"findings": […], "totals": {…}, "tables": […], "gate": […], "failed": …}`; the totals count what counts.
 pub(crate) fn render(outcome: &Outcome<'_>) -> String {
@@ -20,6 +21,34 @@ pub(crate) fn render(outcome: &Outcome<'_>) -> String {
         "failed": outcome.failed(),
     });
     format!("{object:#}\n")
+}
+
+/// Findings alone, which all count: `{"findings": […], "totals": {…}, "failed": …}`.
+pub(crate) fn findings(findings: &[Finding], files: &Files, failed: bool) -> String {
+    let count = |severity| findings.iter().filter(|finding| finding.severity == severity).count();
+    let object = json!({
+        "findings": findings.iter().map(|one| finding(one, files)).collect::<Vec<_>>(),
+        "totals": {
+            "error": count(Severity::Error),
+            "warning": count(Severity::Warning),
+            "info": count(Severity::Info),
+        },
+        "failed": failed,
+    });
+    format!("{object:#}\n")
+}
+
+fn finding(finding: &Finding, files: &Files) -> Value {
+    let at = files.line_column(finding.place);
+    json!({
+        "code": finding.code.name,
+        "severity": finding.severity.name(),
+        "message": finding.message,
+        "file": files.get(finding.place.file).path,
+        "line": at.line,
+        "column": at.column,
+        "help": finding.help,
+    })
 }
 
 fn totals(outcome: &Outcome<'_>) -> Value {
@@ -53,19 +82,9 @@ fn table(line: &TableLine) -> Value {
 }
 
 fn one(outcome: &Outcome<'_>, reported: &Reported<'_>) -> Value {
-    let finding = reported.finding;
-    let at = outcome.at(finding);
-    let mut value = json!({
-        "code": finding.code.name,
-        "severity": finding.severity.name(),
-        "message": finding.message,
-        "file": outcome.path(finding),
-        "line": at.line,
-        "column": at.column,
-        "help": finding.help,
-        "standing": reported.standing.name(),
-        "fingerprint": reported.fingerprint,
-    });
+    let mut value = finding(reported.finding, outcome.files);
+    value["standing"] = reported.standing.name().into();
+    value["fingerprint"] = reported.fingerprint.clone().into();
     if let Standing::Allowed(allowance) = &reported.standing {
         value["allowed"] = json!({"reason": allowance.reason, "owner": allowance.owner, "until": allowance.until});
     }

@@ -2,8 +2,7 @@
 
 mod annotations;
 pub(crate) mod diff;
-pub(crate) mod findings;
-mod json;
+pub(crate) mod json;
 mod junit;
 mod markdown;
 mod metrics;

@@ -1,13 +1,38 @@
 //! Findings the way rustc prints them: code, place, source line, help.
 
+use std::io::IsTerminal;
+
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
+use crate::cli::print;
 use crate::diagnostic::{Finding, Severity};
 use crate::text::{Files, Place, Span};
 
 /// Lines longer than this (in bytes) are shown as a place only.
 const LONG_LINE: usize = 400;
+
+/// Prints findings, in colour on a terminal.
+pub(crate) fn findings<'a>(findings: impl Iterator<Item = &'a Finding>, files: &Files) {
+    let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    let reporter = Reporter::new(colour);
+    let mut out = String::new();
+    for finding in findings {
+        out.push_str(&reporter.render(finding, files));
+        out.push_str("\n\n");
+        if out.len() > 1 << 16 {
+            print(&out);
+            out.clear();
+        }
+    }
+    print(&out);
+}
+
+/// How many findings there are, in a line; `count` counts those of a severity.
+pub(crate) fn counts(count: impl Fn(Severity) -> usize) -> String {
+    let [errors, warnings, infos] = [Severity::Error, Severity::Warning, Severity::Info].map(count);
+    format!("{errors} errors, {warnings} warnings, {infos} infos; `rungbook explain CODE` tells what one means\n")
+}
 
 /// Renders findings.
 pub(crate) struct Reporter {

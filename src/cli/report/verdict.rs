@@ -45,13 +45,28 @@ pub(crate) fn exit(lines: &[Line]) -> Exit {
 
 /// How many tables have which verdict.
 pub(crate) fn totals(lines: &[Line]) -> String {
-    let count = |word: &str| lines.iter().filter(|line| line.answer.verdict.word() == word).count();
+    counted(lines.iter().map(|line| &line.answer.verdict))
+}
+
+/// The same of verdicts alone.
+pub(crate) fn counted<'a>(verdicts: impl Iterator<Item = &'a Verdict> + Clone) -> String {
+    let count = |word: &str| verdicts.clone().filter(|verdict| verdict.word() == word).count();
     let counts = Verdict::WORDS.iter().map(|word| (count(word), word)).filter(|(count, _)| *count > 0);
     let counts: Vec<String> = counts.map(|(count, word)| format!("{count} {word}")).collect();
-    if counts.is_empty() {
-        "no test tables".to_owned()
-    } else {
-        format!("{} tables: {}", lines.len(), counts.join(", "))
+    match verdicts.count() {
+        0 => "no test tables".to_owned(),
+        1 => format!("1 table: {}", counts.join(", ")),
+        tables => format!("{tables} tables: {}", counts.join(", ")),
+    }
+}
+
+/// What to do where nothing was tried, or not since the sources changed; empty where there is nothing to do.
+pub(crate) fn advice<'a>(verdicts: impl Iterator<Item = &'a Verdict>) -> String {
+    let open = verdicts.filter(|verdict| matches!(verdict, Verdict::Unverified | Verdict::Stale { .. })).count();
+    match open {
+        0 => String::new(),
+        1 => "nothing is known of 1 table as it is now; `--verify` decides it first\n".to_owned(),
+        open => format!("nothing is known of {open} tables as they are now; `--verify` decides them first\n"),
     }
 }
 

@@ -5,7 +5,8 @@
 //! statement.json        an in-toto statement: the sources and the manifest as subjects, the verdicts as predicate
 //! statement.dsse.json   the same in a DSSE envelope, signed
 //! statement.json.sig    the same signed as `ssh-keygen -Y` does
-//! signer.pub            the public key of both signatures
+//! statement.sigstore.json   the envelope again, as Sigstore's tools read it
+//! signer.pub            the public key of all signatures
 //! records/ certificates/ runs/ tables/ sources/ manual/ report/ results/ sbom.cdx.json snapshot.json
 //! ```
 //!
@@ -17,6 +18,7 @@ pub mod archive;
 pub mod manifest;
 pub mod sbom;
 pub mod sign;
+pub mod sigstore;
 pub mod statement;
 pub mod verify;
 pub mod write;

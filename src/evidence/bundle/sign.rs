@@ -138,6 +138,14 @@ impl Public {
         self.0.to_public_key_pem(LineEnding::LF).map_err(|error| error.to_string())
     }
 
+    /// The key as a `SubjectPublicKeyInfo` in DER.
+    ///
+    /// # Errors
+    /// Never in practice; the encoder reports errors of its buffer.
+    pub fn der(self) -> Result<Vec<u8>, String> {
+        self.0.to_public_key_der().map(|der| der.as_bytes().to_vec()).map_err(|error| error.to_string())
+    }
+
     /// Whether `signature` is this key's, of `message`. Strict: no second form of a signature is taken.
     #[must_use]
     pub fn verifies(self, message: &[u8], signature: &[u8]) -> bool {

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use super::manifest::{self, File, Manifest};
 use super::sign::{self, Public};
 use super::statement::{self, Envelope};
-use super::{archive, write};
+use super::{archive, sigstore, write};
 use crate::evidence::digest::Digest;
 use crate::evidence::record::{Artefact, Record, Verdict};
 
@@ -97,7 +97,8 @@ fn unlisted(files: &Files) -> usize {
 }
 
 /// The files that the manifest cannot list, since they follow from it.
-const OWN: [&str; 4] = [manifest::PATH, statement::PATH, statement::ENVELOPE, sign::SSH_SIGNATURE];
+pub(super) const OWN: [&str; 5] =
+    [manifest::PATH, statement::PATH, statement::ENVELOPE, sign::SSH_SIGNATURE, sigstore::PATH];
 
 type Files = BTreeMap<String, Vec<u8>>;
 
@@ -115,7 +116,7 @@ fn read_manifest(files: &Files, report: &mut Report) -> Option<Manifest> {
     }
 }
 
-/// Every listed file is there and as it was; every other file is one of the four that the manifest cannot list.
+/// Every listed file is there and as it was; every other file is one of those that the manifest cannot list.
 fn digests(manifest: &Manifest, files: &Files, report: &mut Report) {
     for (path, listed) in &manifest.files {
         match files.get(path) {
@@ -169,13 +170,13 @@ fn check_statement(manifest: &Manifest, records: &BTreeMap<String, Record>, file
     }
 }
 
-/// Both signatures are by the key in the bundle, and that is one of `keys` where there are any.
+/// All signatures are by the key in the bundle, and that is one of `keys` where there are any.
 fn signatures(files: &Files, keys: &[Public], report: &mut Report) {
     let envelope = files.get(statement::ENVELOPE).and_then(|bytes| Envelope::parse(bytes).ok());
     let signed = envelope.as_ref().is_some_and(|envelope| !envelope.signatures.is_empty());
-    let ssh = files.get(sign::SSH_SIGNATURE);
+    let (ssh, sigstore) = (files.get(sign::SSH_SIGNATURE), files.get(sigstore::PATH));
     let Some(signer) = files.get(sign::SIGNER) else {
-        if signed || ssh.is_some() {
+        if signed || ssh.is_some() || sigstore.is_some() {
             report.add(sign::SIGNER, "the bundle is signed and does not hold the key");
         } else if !keys.is_empty() {
             report.add(statement::ENVELOPE, "nobody signed it");
@@ -194,6 +195,9 @@ fn signatures(files: &Files, keys: &[Public], report: &mut Report) {
     }
     if let Some(envelope) = envelope {
         dsse(&envelope, public, report);
+        if sigstore::bytes(&envelope, public).ok().as_ref() != sigstore {
+            report.add(sigstore::PATH, "it is not the envelope as a Sigstore bundle, by the key in the bundle");
+        }
     }
     let statement = files.get(statement::PATH).map_or(&[][..], Vec::as_slice);
     let text = ssh.and_then(|bytes| std::str::from_utf8(bytes).ok());

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::manifest::{self, Manifest};
 use super::sign::{self, Signer};
 use super::statement::{self, Envelope};
-use super::{archive, sbom};
+use super::{archive, sbom, sigstore};
 use crate::evidence::digest::Digest;
 use crate::evidence::record::{Artefact, Origin, Record};
 
@@ -67,7 +67,7 @@ pub fn bundle(contents: Contents, signer: Option<&Signer>) -> Result<Vec<u8>, St
         files.insert(sign::SIGNER.to_owned(), signer.public().line()?.into_bytes());
         files.insert("signer.pem".to_owned(), signer.public().pem()?.into_bytes());
     }
-    for path in [manifest::PATH, statement::PATH, statement::ENVELOPE, sign::SSH_SIGNATURE] {
+    for path in super::verify::OWN {
         if files.contains_key(path) {
             return Err(format!("the path `{path}` is taken by the bundle itself"));
         }
@@ -90,6 +90,7 @@ pub fn bundle(contents: Contents, signer: Option<&Signer>) -> Result<Vec<u8>, St
     let envelope = Envelope::new(&statement, sign.as_ref().map(|sign| sign as &statement::Sign<'_>));
     if let Some(signer) = signer {
         files.insert(sign::SSH_SIGNATURE.to_owned(), signer.sign_ssh(&statement)?.into_bytes());
+        files.insert(sigstore::PATH.to_owned(), sigstore::bytes(&envelope, signer.public())?);
     }
     files.insert(manifest::PATH.to_owned(), manifest.bytes());
     files.insert(statement::PATH.to_owned(), statement);

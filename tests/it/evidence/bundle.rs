@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use proptest::prelude::*;
@@ -15,9 +15,9 @@ use rungbook::evidence::record::{Answer, Record, Verdict};
 use serde_json::Value;
 
 use super::records::{claim, origin, part, verified};
-use super::{rungbook, tree, write};
+use super::{rungbook, write};
 
-fn signer() -> Signer {
+pub(super) fn signer() -> Signer {
     Signer::from_seed(&[7; 32])
 }
 
@@ -73,7 +73,7 @@ fn part_at(files: &BTreeMap<String, Vec<u8>>, at: usize) -> String {
     archive::DIRECTORY.to_owned()
 }
 
-fn check_flip(bytes: &[u8], at: usize, bit: u8, keys: &[Public]) -> Result<(), TestCaseError> {
+pub(super) fn check_flip(bytes: &[u8], at: usize, bit: u8, keys: &[Public]) -> Result<(), TestCaseError> {
     let (files, faults) = archive::read(bytes, &|_| 0);
     prop_assert!(faults.is_empty());
     let part = part_at(&files, at);
@@ -105,7 +105,7 @@ proptest! {
     }
 }
 
-fn signed() -> &'static [u8] {
+pub(super) fn signed() -> &'static [u8] {
     static BYTES: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
     BYTES.get_or_init(|| bundle(contents(), Some(&signer())).expect("small"))
 }
@@ -217,7 +217,7 @@ fn the_bill_of_materials_is_closed_and_names_this_tool() {
     }
 }
 
-fn have(tool: &str) -> bool {
+pub(super) fn have(tool: &str) -> bool {
     let found = Command::new(tool).arg("-h").output().is_ok();
     if !found {
         println!("skipped: `{tool}` is not here");
@@ -225,7 +225,7 @@ fn have(tool: &str) -> bool {
     found
 }
 
-fn run(dir: &Path, tool: &str, args: &[&str], stdin: Option<&[u8]>) -> std::process::Output {
+pub(super) fn run(dir: &Path, tool: &str, args: &[&str], stdin: Option<&[u8]>) -> std::process::Output {
     use std::io::Write;
     let mut command = Command::new(tool);
     command.current_dir(dir).args(args);
@@ -308,56 +308,6 @@ fn keys_of_ssh_keygen_and_openssl_sign() {
     assert!(Signer::parse("nothing").is_err());
 }
 
-fn samples() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("samples")
-}
-
-#[test]
-fn a_bundle_of_each_sample_verifies_elsewhere() {
-    let keys = tempfile::TempDir::new().expect("a folder");
-    let key = keys.path().join("key.pem");
-    rungbook().args(["evidence", "keygen"]).arg(&key).assert().code(0);
-    rungbook().args(["evidence", "keygen"]).arg(&key).assert().code(2);
-    for name in ["basics", "flawed", "papers", "pick-and-place"] {
-        let out = tempfile::TempDir::new().expect("a folder");
-        let make = |file: &str| {
-            let path = out.path().join(file);
-            let mut command = rungbook();
-            command.args(["evidence", "bundle", "-q", "--no-pdf", "--key"]).arg(&key).arg("-o").arg(&path);
-            command.arg(samples().join(name)).assert().code(0);
-            path
-        };
-        let (path, again) = (make("a.zip"), make("b.zip"));
-        assert_eq!(
-            fs::read(&path).expect("there"),
-            fs::read(again).expect("there"),
-            "{name}: two runs, the same bytes"
-        );
-        let other = tree(&[]);
-        fs::copy(&path, other.path().join("release.zip")).expect("copied");
-        fs::copy(keys.path().join("key.pem.pub"), other.path().join("key.pub")).expect("copied");
-        let verify = || {
-            let mut command = rungbook();
-            command.current_dir(other.path()).env_clear().args([
-                "evidence",
-                "verify",
-                "release.zip",
-                "--key",
-                "key.pub",
-            ]);
-            command
-        };
-        verify().assert().code(0);
-        let mut bytes = fs::read(other.path().join("release.zip")).expect("there");
-        let at = bytes.len() / 3;
-        bytes[at] ^= 4;
-        fs::write(other.path().join("release.zip"), bytes).expect("written");
-        let output = verify().assert().code(1);
-        let said = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
-        assert!(said.contains("changed: ") && said.contains("NOT as it was made"), "{said}");
-    }
-}
-
 #[test]
 fn records_of_a_bundle_meet_the_schema_and_name_no_absolute_path() {
     let out = tempfile::TempDir::new().expect("a folder");
@@ -365,7 +315,7 @@ fn records_of_a_bundle_meet_the_schema_and_name_no_absolute_path() {
     rungbook()
         .args(["evidence", "bundle", "-q", "--no-pdf", "-o"])
         .arg(&path)
-        .arg(samples().join("basics"))
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/basics"))
         .assert()
         .code(0);
     let (files, faults) = archive::read(&fs::read(path).expect("there"), &|_| 0);

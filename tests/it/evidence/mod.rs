@@ -3,8 +3,10 @@
 mod bundle;
 mod diff;
 mod formats;
+mod outside;
 mod policy;
 mod records;
+mod samples;
 mod trace;
 mod walk;
 

@@ -42,10 +42,12 @@ fn every_command_of_the_walk_through_runs() {
     let words = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
     // The three steps at the top of the page.
     run(&words("init"));
-    run(&words("check --write-baseline"));
+    run(&words("check --verify --write-baseline"));
     write(at, "rungbook.toml", "[gate]\nbaseline = \"rungbook-baseline.json\"\n");
     run(&words("evidence keygen release.key"));
-    for step in ["`rungbook init`", "`rungbook check --write-baseline`", "`rungbook evidence keygen release.key`"] {
+    for step in
+        ["`rungbook init`", "`rungbook check --verify --write-baseline`", "`rungbook evidence keygen release.key`"]
+    {
         assert!(PAGE.contains(step), "{step} is not on the page any more");
     }
     if !(git(at, &["init", "-q"])

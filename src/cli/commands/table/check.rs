@@ -1,7 +1,7 @@
 //! `rungbook table check`: reads tables and reports what is wrong with them.
 
 use super::CheckArgs;
-use crate::cli::report::findings;
+use crate::cli::report::{json, text};
 use crate::cli::{Exit, Failure, commands::check, print, say};
 use crate::table::lint;
 use crate::text::Files;
@@ -21,9 +21,10 @@ pub(super) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let deny = check::severity(args.deny);
     let failed = all.iter().any(|finding| finding.severity >= deny);
     match args.format {
-        crate::cli::args::Output::Json => print(&format!("{}\n", findings::render(&all, &files, failed))),
-        crate::cli::args::Output::Text => check::print_findings(&all, &files),
+        crate::cli::args::Output::Json => print(&json::findings(&all, &files, failed)),
+        crate::cli::args::Output::Text => text::findings(all.iter(), &files),
     }
-    say(&format!("{count} tables, {}", check::count(&all)));
+    let of = |severity| all.iter().filter(|finding| finding.severity == severity).count();
+    say(&format!("{count} tables, {}", text::counts(of)));
     Ok(if failed { Exit::Findings } else { Exit::Ok })
 }

@@ -1,7 +1,7 @@
 //! `rungbook table convert`: the tables of a file in another form. A table with errors is not converted.
 
 use super::ConvertArgs;
-use crate::cli::commands::check;
+use crate::cli::report::text;
 use crate::cli::{Exit, Failure, print, say, write};
 use crate::diagnostic::Severity;
 use crate::table::form::{self, Form};
@@ -12,8 +12,7 @@ pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     let mut files = Files::default();
     let read = super::tables(&args.input, &args.read.reading()?, &mut files)?;
     if read.has_errors() {
-        let errors: Vec<_> = read.findings.into_iter().filter(|f| f.severity == Severity::Error).collect();
-        check::print_findings(&errors, &files);
+        text::findings(read.findings.iter().filter(|f| f.severity == Severity::Error), &files);
         say(&format!("`{}` has errors; nothing was written", args.input.display()));
         return Ok(Exit::Findings);
     }
