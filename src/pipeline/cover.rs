@@ -17,7 +17,6 @@ use crate::prove::engine::Cancel;
 use crate::prove::product::{Parts, product};
 use crate::recheck::invariant;
 use crate::recheck::replay::{Environment, Replay, Subject, replay};
-use crate::semantics::encode::Reals;
 use crate::semantics::show::{Kind as Shown, literal};
 use crate::table::Table;
 use crate::table::decide::free::free;
@@ -86,7 +85,6 @@ impl Work<'_> {
             translated: &translated,
             table: &ready.table,
             automaton: &ready.automaton,
-            reals: Reals::Ieee,
         };
         let made = product(&parts).map_err(|_| "the block with its probes does not fit the table".to_owned())?;
         let mut system = made.system;
@@ -107,7 +105,8 @@ impl Work<'_> {
 
     /// Plays the runs and checks the proofs.
     fn confirm(&self, question: &Question, found: &Reached) -> Result<(), String> {
-        let seen: Vec<Vec<BTreeSet<usize>>> = found.runs.iter().map(|run| self.seen(&self.played(run))).collect();
+        let seen = found.runs.iter().map(|run| Ok(self.seen(&self.played(run)?)));
+        let seen: Vec<Vec<BTreeSet<usize>>> = seen.collect::<Result<_, String>>()?;
         for (target, fate) in found.fates.iter().enumerate() {
             match fate {
                 Found::Reached { run, cycle } => {
@@ -131,7 +130,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    fn played(&self, run: &Choice) -> Replay {
+    fn played(&self, run: &Choice) -> Result<Replay, String> {
         let environment =
             Environment { globals: run.globals.clone(), slots: self.inputs.clone(), inputs: run.inputs.clone() };
         let subject = Subject {
@@ -140,7 +139,7 @@ impl Work<'_> {
             table: &self.ready.table,
             automaton: &self.ready.automaton,
         };
-        replay(&subject, &environment)
+        replay(&subject, &environment).map_err(|missing| missing.to_string())
     }
 
     /// The targets that each cycle of a run reaches; a cycle in which a row is possible afterwards is one of the table.

@@ -16,7 +16,6 @@ use crate::prove::decide::Choice;
 use crate::prove::engine::Cancel;
 use crate::prove::product::{Parts, Product, product};
 use crate::recheck::replay::{End, Environment, Subject, replay};
-use crate::semantics::encode::Reals;
 use crate::semantics::show::{Kind as Shown, literal};
 
 /// So many mutants of a block are tried.
@@ -78,20 +77,14 @@ fn violation(ready: &Ready, changed: &Program, run: &Choice) -> Option<usize> {
         Environment { globals: run.globals.clone(), slots: ready.product.inputs.clone(), inputs: run.inputs.clone() };
     let options = interpret::Options { loop_limit: ready.loop_limit };
     let subject = Subject { program: changed, options, table: &ready.table, automaton: &ready.automaton };
-    let replay = replay(&subject, &environment);
+    let replay = replay(&subject, &environment).ok()?;
     matches!(replay.end, End::Lost(_) | End::Fault(_)).then_some(replay.cycles.len())
 }
 
 fn obligation(ready: &Ready, changed: &Program) -> Option<Product> {
     let options = translate::Options { loop_limit: ready.loop_limit, ..translate::Options::default() };
     let translated = translate::translate(changed, &options).ok()?;
-    let parts = Parts {
-        program: changed,
-        translated: &translated,
-        table: &ready.table,
-        automaton: &ready.automaton,
-        reals: Reals::Ieee,
-    };
+    let parts = Parts { program: changed, translated: &translated, table: &ready.table, automaton: &ready.automaton };
     let mut made = product(&parts).ok()?;
     let outputs = changed.variables.iter().filter(|variable| variable.role == Role::Output);
     made.system.outputs.extend(outputs.map(|variable| Labelled {

@@ -1,12 +1,10 @@
 //! Which assertions say anything: a cell that every value satisfies leaves its column free.
 
-use std::time::Duration;
-
-use super::Puzzle;
+use super::{Effort, Puzzle};
 use crate::table::bind::{BoundCell, BoundTable};
 
-/// The longest that is spent on a cell; one that takes longer counts as saying something.
-const DEADLINE: Duration = Duration::from_secs(5);
+/// The most that is spent on a cell; one that takes more counts as saying something.
+const EFFORT: Effort = Effort { conflicts: 20_000, misses: 1, work: 4_000_000 };
 
 /// For each row, the columns of assertions whose cells any values of the variables satisfy, in a first cycle and in later ones.
 #[must_use]
@@ -27,6 +25,6 @@ fn admits_all(bound: &BoundTable, cell: &BoundCell) -> bool {
         let mut puzzle = Puzzle::new(bound, false);
         let Some(holds) = puzzle.holds(constraint, 0, false) else { return false };
         let fails = puzzle.pool.not(holds);
-        puzzle.session(&[fails], DEADLINE).ask(&[fails], &[]) == Some(false)
+        puzzle.session(&[fails], EFFORT).ask(&[fails], &[]) == Some(false)
     })
 }
