@@ -194,7 +194,9 @@ fn cell(sheet: &str, at: (u32, u32), value: &Data, is_formula: bool) -> GridCell
             String::new()
         }
     };
-    if is_formula {
+    if is_formula && matches!(value, Data::Empty) {
+        cell.notes.push(Note::Refused("this cell is a formula without a stored value; write the value".to_owned()));
+    } else if is_formula {
         let message = format!("this cell is a formula; its last value `{}` is taken", cell.text);
         cell.notes.push(Note::Guess(message));
     }
