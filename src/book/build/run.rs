@@ -121,7 +121,7 @@ fn lines(context: &Context<'_>, lines: &[Value], wrong: &[(String, u64)]) -> Vec
         let line = (text(&line["file"]), line["line"].as_u64().unwrap_or_default());
         wrong.contains(&line)
     };
-    let last = lines.iter().rposition(|line| is_wrong(line)).map_or(0, |at| (at + 1).saturating_sub(LINES));
+    let last = lines.iter().rposition(is_wrong).map_or(0, |at| (at + 1).saturating_sub(LINES));
     let from = if lines.len() > LINES { last } else { 0 };
     let shown = lines.iter().skip(from).take(LINES);
     shown.map(|own| RunLine { wrong: is_wrong(own), ..line(context, own) }).collect()

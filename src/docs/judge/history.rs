@@ -87,10 +87,10 @@ fn last_entries(text: &Mapped) -> Option<usize> {
 
 /// Whether a line begins as `V1.2`, `1.0.3 2020-…`, `2020-05-01` or `01.05.2020` does.
 fn is_entry(line: &str) -> bool {
-    let words = line.split_whitespace().map(|word| word.trim_matches([':', '-', '|', '[', ']', '(', ')']));
+    let mut words = line.split_whitespace().map(|word| word.trim_matches([':', '-', '|', '[', ']', '(', ')']));
     let named =
-        |word: &&str| ["version", "rev", "rev.", "ver", "ver."].iter().any(|name| word.eq_ignore_ascii_case(name));
-    let word = words.skip_while(named).next().unwrap_or("");
+        |word: &str| ["version", "rev", "rev.", "ver", "ver."].iter().any(|name| word.eq_ignore_ascii_case(name));
+    let word = words.find(|word| !named(word)).unwrap_or("");
     is_date(word)
         || is_version(word) && line.split_whitespace().any(|word| is_date(word.trim_matches([',', '(', ')', ':'])))
 }

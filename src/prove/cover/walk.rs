@@ -161,9 +161,9 @@ impl<'m> Walker<'m> {
                 values[word][lane] = self.value(self.blasted.inputs[word].len());
                 continue;
             }
-            for word in 0..values.len() {
+            for (word, value) in values.iter_mut().enumerate() {
                 if self.random.next() & 1 == 0 {
-                    values[word][lane] = self.value(self.blasted.inputs[word].len());
+                    value[lane] = self.value(self.blasted.inputs[word].len());
                 }
             }
         }

@@ -129,7 +129,7 @@ fn line<R: std::io::BufRead>(stream: &mut Stream<R>) -> Result<Vec<Cell>, String
                 let is_formula = attribute(&start, "table:formula").is_some_and(|formula| !formula.is_empty());
                 let stated = stated(&start);
                 let text = text(stream, &name)?;
-                let value = stated.unwrap_or_else(|| if text.is_empty() { Data::Empty } else { Data::String(text) });
+                let value = stated.unwrap_or(if text.is_empty() { Data::Empty } else { Data::String(text) });
                 if is_formula || !matches!(value, Data::Empty) {
                     cells.push(Cell { column, times, value, is_formula });
                 }
