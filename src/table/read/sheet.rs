@@ -29,6 +29,8 @@ pub(super) struct GridCell {
     pub(super) address: String,
     /// What had to be guessed or refused.
     pub(super) notes: Vec<Note>,
+    /// Where it is merged with a cell to the left: the address of that cell and its text.
+    pub(super) merged: Option<(String, String)>,
 }
 
 #[derive(Clone, Debug)]
@@ -144,6 +146,20 @@ impl Note {
             Self::Refused(message) => Finding::new(&codes::TABLE_IMPORT_REFUSED, place, format!("{message}{address}")),
         }
     }
+}
+
+/// A cell that is merged with one to the left shows the text of that one. Merged with one above, it is blank, and a blank
+/// cell repeats the one above as it is.
+fn unmerged(mut cell: GridCell) -> GridCell {
+    let Some((address, text)) = cell.merged.take() else { return cell };
+    if cell.text.is_empty() {
+        cell.notes.push(Note::Guess(format!("this cell is merged with {address}; its text `{text}` is taken")));
+        cell.text = text;
+    } else if cell.text != text {
+        let message = format!("this cell holds `{}`, hidden by {address}, with which it is merged", cell.text);
+        cell.notes.push(Note::Refused(message));
+    }
+    cell
 }
 
 /// Spellings that spreadsheets have and cells have not.

@@ -10,7 +10,7 @@ mod xls;
 
 use std::io::{Cursor, Read as _};
 
-use calamine::{Data, DataRef, Reader, Xls, Xlsx, XlsxError};
+use calamine::{Data, DataRef, Dimensions, Reader, Xls, Xlsx, XlsxError};
 use zip::ZipArchive;
 
 use super::sheet::{Grid, GridCell, Note, saturate};
@@ -80,6 +80,9 @@ fn new_sheet(book: &mut Xlsx<Cursor<&[u8]>>, name: &str, budget: &mut Budget) ->
         };
         filling.add(record.pos, &value, record.formula.is_some(), budget)?;
     }
+    drop(reader);
+    let merged = book.merge_cells_by_sheet_name(name).map_err(|error| error.to_string())?;
+    merged.iter().for_each(|region| filling.merge(region));
     filling.grid(budget)
 }
 
@@ -98,6 +101,8 @@ fn old(bytes: &[u8], budget: &mut Budget) -> Result<Vec<Sheet>, String> {
             let formula = formulas.as_ref().and_then(|formulas| formulas.get_value(at));
             filling.add(at, value, formula.is_some_and(|formula| !formula.is_empty()), budget)?;
         }
+        let merged = book.merge_cells_by_sheet_name(name).map_err(|error| error.to_string())?;
+        merged.iter().for_each(|region| filling.merge(region));
         filling.grid(budget)
     };
     Ok(names.into_iter().map(|name| Sheet { grid: sheet(&name), name }).collect())
@@ -118,11 +123,19 @@ struct Filling<'a> {
     /// The name of the sheet, as far as it is shown with each cell.
     sheet: &'a str,
     cells: Vec<((u32, u32), GridCell)>,
+    /// The cells that reach over others to the right: the line, and the first and the last column.
+    wide: Vec<(u32, u32, u32)>,
 }
 
 impl<'a> Filling<'a> {
     fn new(sheet: &'a str) -> Self {
-        Self { sheet: &sheet[..sheet.floor_char_boundary(NAME)], cells: Vec::new() }
+        Self { sheet: &sheet[..sheet.floor_char_boundary(NAME)], cells: Vec::new(), wide: Vec::new() }
+    }
+
+    /// That cells are merged; only the first line of a region matters, since a blank cell repeats the one above.
+    fn merge(&mut self, region: &Dimensions) {
+        let ((row, first), (_, last)) = (region.start, region.end);
+        self.wide.extend((last > first).then_some((row, first, last)));
     }
 
     fn add(&mut self, at: (u32, u32), value: &Data, is_formula: bool, budget: &mut Budget) -> Result<(), String> {
@@ -140,6 +153,28 @@ impl<'a> Filling<'a> {
 
     /// Lines from the first that holds something to the last, each from the first column that holds something.
     fn grid(mut self, budget: &mut Budget) -> Result<Grid, String> {
+        let wide = std::mem::take(&mut self.wide);
+        let (mut grid, (top, left)) = self.filled(budget)?;
+        let width = grid.iter().map(Vec::len).max().unwrap_or(0);
+        for (row, first, last) in wide {
+            let Some((line, first)) = row.checked_sub(top).zip(first.checked_sub(left)) else { continue };
+            let Some(line) = grid.get_mut(line as usize) else { continue };
+            if line.len() < width.min((last - left) as usize + 1) {
+                return Err(too_many_cells());
+            }
+            let Some(([.., anchor], covered)) = line.split_at_mut_checked(first as usize + 1) else { continue };
+            let over = covered.len().min((last - left - first) as usize);
+            budget.cells = budget.cells.checked_sub(over).ok_or_else(too_many_cells)?;
+            budget.bytes = budget.bytes.checked_sub(anchor.text.len() * over).ok_or_else(too_much_text)?;
+            for cell in &mut covered[..over] {
+                cell.merged = Some((anchor.address.clone(), anchor.text.clone()));
+            }
+        }
+        Ok(grid)
+    }
+
+    /// The grid without what is merged, and the line and the column at which it begins.
+    fn filled(mut self, budget: &mut Budget) -> Result<(Grid, (u32, u32)), String> {
         self.cells.sort_by_key(|(at, _)| *at);
         let left = self.cells.iter().map(|((_, column), _)| *column).min().unwrap_or(0);
         let top = self.cells.first().map_or(0, |((row, _), _)| *row);
@@ -160,7 +195,7 @@ impl<'a> Filling<'a> {
         let missing = grid.iter().map(|line| width - line.len()).sum::<usize>();
         if missing > budget.cells {
             // Too ragged to be filled up: what is missing at the end of a line reads as empty all the same.
-            return Ok(grid);
+            return Ok((grid, (top, left)));
         }
         budget.cells -= missing;
         for (line, row) in grid.iter_mut().zip(top..) {
@@ -168,7 +203,7 @@ impl<'a> Filling<'a> {
                 line.push(GridCell::at(address(self.sheet, row, left + saturate(empty))));
             }
         }
-        Ok(grid)
+        Ok((grid, (top, left)))
     }
 }
 

@@ -72,6 +72,51 @@ fn a_small_workbook_is_read() {
     assert_eq!(messages, ["this cell is a formula; its last value `2` is taken (S!B2)"]);
 }
 
+const MERGED: &str = "in x : INT|in y : INT|out z : INT|remark;1|2|3|a;4||5|b;||6|c";
+
+#[track_caller]
+fn merged(bytes: &[u8]) {
+    let read = read(bytes);
+    let messages: Vec<&str> = read.findings.iter().map(|finding| finding.message.as_str()).collect();
+    assert_eq!(messages, ["this cell is merged with S!A3; its text `4` is taken (S!B3)"]);
+    let rows = read.tables[0].rows();
+    let texts: Vec<Vec<Option<&str>>> = rows
+        .iter()
+        .map(|row| row.cells.iter().map(|cell| cell.as_ref().map(|cell| cell.text.as_str())).collect())
+        .collect();
+    assert_eq!(texts[1], [Some("4"), Some("4"), Some("5")]);
+    assert_eq!(texts[2], [None, None, Some("6")], "below, it repeats");
+}
+
+/// A merged cell means what it shows: one text over all its columns.
+#[test]
+fn merged_cells_show_one_text() {
+    let cell = |text: &str| match text {
+        "" => "<c/>".to_owned(),
+        text => format!("<c t=\"inlineStr\"><is><t>{text}</t></is></c>"),
+    };
+    let row = |line: &str| format!("<row>{}</row>", line.split('|').map(cell).collect::<String>());
+    let rows: String = MERGED.split(';').map(row).collect();
+    let regions = "</sheetData><mergeCells><mergeCell ref=\"A3:B4\"/></mergeCells><sheetData>";
+    merged(&xlsx(&format!("{rows}{regions}"), ""));
+    let cell = |text: &str| match text {
+        "" => "<table:covered-table-cell/>".to_owned(),
+        text => {
+            let over =
+                if text == "4" { " table:number-columns-spanned=\"2\" table:number-rows-spanned=\"2\"" } else { "" };
+            format!("<table:table-cell office:value-type=\"string\"{over}><text:p>{text}</text:p></table:table-cell>")
+        }
+    };
+    let row =
+        |line: &str| format!("<table:table-row>{}</table:table-row>", line.split('|').map(cell).collect::<String>());
+    let rows: String = MERGED.split(';').map(row).collect();
+    merged(&ods(&rows));
+    let hidden = rows.replacen("<table:covered-table-cell/>", &cell("7"), 1);
+    let read = read(&ods(&hidden));
+    assert!(read.findings[0].message.contains("holds `7`, hidden by S!A3"), "{:?}", read.findings);
+    assert!(read.tables[0].errors > 0, "what nobody sees is not taken");
+}
+
 #[test]
 fn an_archive_that_unpacks_to_too_much_is_refused() {
     let much = vec![b' '; (64 << 20) + 1];

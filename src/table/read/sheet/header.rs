@@ -1,6 +1,6 @@
 //! The headers of sheets, and the text of pipe tables that is made of what stands below them.
 
-use super::{Grid, GridCell, Made, guessed, saturate};
+use super::{Grid, GridCell, Made, guessed, saturate, unmerged};
 use crate::table::read::{Mapping, pipe};
 
 /// What a heading of the upper line stands for, as the header of a pipe table spells it.
@@ -167,7 +167,7 @@ impl Made {
                 let cell = line.get(column).cloned().unwrap_or_default();
                 let bound = matches!(pipe::header_kind(title), pipe::Header::Bound(..));
                 self.bar(&cell);
-                self.cell(&if bound { guessed(cell) } else { cell }, true);
+                self.cell(&if bound { guessed(unmerged(cell)) } else { cell }, true);
             }
             self.line_end();
             row += 1;

@@ -3,7 +3,7 @@
 
 use std::io::{BufReader, Cursor};
 
-use calamine::{CellErrorType, Data};
+use calamine::{CellErrorType, Data, Dimensions};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
@@ -14,6 +14,8 @@ use super::{Budget, Filling, Sheet, too_many_cells};
 struct Cell {
     column: u64,
     times: u64,
+    /// How many columns it reaches over, where it stands once.
+    span: u64,
     value: Data,
     is_formula: bool,
 }
@@ -110,6 +112,11 @@ fn add(cells: &[Cell], row: u64, filling: &mut Filling<'_>, budget: &mut Budget)
         for column in cell.column..cell.column.saturating_add(cell.times) {
             filling.add((place(row)?, place(column)?), &cell.value, cell.is_formula, budget)?;
         }
+        if cell.times == 1 && cell.span > 1 {
+            let start = (place(row)?, place(cell.column)?);
+            let last = place(cell.column.saturating_add(cell.span - 1))?;
+            filling.merge(&Dimensions::new(start, (start.0, last)));
+        }
     }
     Ok(())
 }
@@ -125,13 +132,14 @@ fn line<R: std::io::BufRead>(stream: &mut Stream<R>) -> Result<Vec<Cell>, String
                 if !matches!(name.as_str(), "table:table-cell" | "table:covered-table-cell") {
                     continue;
                 }
+                let span = times(&start, "table:number-columns-spanned");
                 let times = times(&start, "table:number-columns-repeated");
                 let is_formula = attribute(&start, "table:formula").is_some_and(|formula| !formula.is_empty());
                 let stated = stated(&start);
                 let text = text(stream, &name)?;
                 let value = stated.unwrap_or(if text.is_empty() { Data::Empty } else { Data::String(text) });
                 if is_formula || !matches!(value, Data::Empty) {
-                    cells.push(Cell { column, times, value, is_formula });
+                    cells.push(Cell { column, times, span, value, is_formula });
                 }
                 column = column.saturating_add(times);
             }
