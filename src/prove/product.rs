@@ -207,8 +207,7 @@ fn depths(table: &BoundTable) -> BTreeMap<usize, u32> {
         }
     };
     for cell in table.rows.iter().flat_map(|row| row.cells.iter().flatten()) {
-        cell.first.leaves(&mut see);
-        cell.later.leaves(&mut see);
+        cell.distinct().for_each(|constraint| constraint.leaves(&mut see));
     }
     for constraint in table.globals.iter().filter_map(|global| global.constraint.as_ref()) {
         constraint.leaves(&mut see);

@@ -265,8 +265,7 @@ impl Cells<'_> {
             let cells = self.subject.table.rows[row].cells.iter().zip(&self.subject.table.assumptions).enumerate();
             let columns = cells.filter_map(|(column, (cell, assumption))| {
                 let cell = cell.as_ref().filter(|_| !assumption)?;
-                let constraint = if site.first { &cell.first } else { &cell.later };
-                (!self.holds(constraint, false)).then_some(column)
+                (!self.holds(cell.constraint(site.first), false)).then_some(column)
             });
             Failed { row, first: site.first, columns: columns.collect() }
         };

@@ -222,8 +222,7 @@ impl Cells<'_> {
             let cells = bound.rows[row].cells.iter().zip(&bound.assumptions).enumerate();
             let columns = cells.filter_map(|(column, (cell, assumption))| {
                 let cell = cell.as_ref().filter(|_| !assumption)?;
-                let term = if site.first { &cell.first } else { &cell.later };
-                (!self.holds(term)).then_some(column)
+                (!self.holds(cell.constraint(site.first))).then_some(column)
             });
             by_row.entry((row, site.first)).or_insert_with(|| columns.collect());
         }

@@ -18,8 +18,17 @@ use crate::table::codes;
 use crate::table::model::Cell;
 use crate::text::{FileId, Place};
 
-/// What a row's first cycle asks for, and its later ones.
-type Pair = (Term, Term);
+/// What a row's first cycle asks for, and its later ones where that is something else.
+type Pair = (Term, Option<Term>);
+
+/// Two constraints joined, in the first cycle and in the later ones.
+fn joined(a: Pair, b: Pair, join: impl Fn(Term, Term) -> Term) -> Pair {
+    let later = match (a.1, b.1) {
+        (None, None) => None,
+        (x, y) => Some(join(x.unwrap_or_else(|| a.0.clone()), y.unwrap_or_else(|| b.0.clone()))),
+    };
+    (join(a.0, b.0), later)
+}
 
 /// What a cell's own variable is, and what it may be compared with.
 struct Around<'o> {
@@ -114,13 +123,13 @@ impl Binder<'_> {
         let around = Around { own, file: cell.place.file };
         let mut all: Option<Pair> = None;
         for chunk in &constraint.chunks {
-            let (first, later) = match self.chunk(chunk, &around) {
+            let pair = match self.chunk(chunk, &around) {
                 Ok(pair) => pair,
                 Err(stop) => return Some(Err(stop)),
             };
             all = Some(match all {
-                None => (first, later),
-                Some((a, b)) => (both(Op::And, a, first, cell.place), both(Op::And, b, later, cell.place)),
+                None => pair,
+                Some(before) => joined(before, pair, |a, b| both(Op::And, a, b, cell.place)),
             });
         }
         let (first, later) = all?;
@@ -129,10 +138,10 @@ impl Binder<'_> {
 
     fn chunk(&mut self, chunk: &Chunk, around: &Around<'_>) -> Result<Pair> {
         let place = Place::new(around.file, chunk.span);
-        let always = |term: Term| (term.clone(), term);
+        let always = |term: Term| (term, None);
         Ok(match &chunk.kind {
             ChunkKind::Any => always(truth(true, Some(place))),
-            ChunkKind::Trigger(inner) => (self.chunk(inner, around)?.0, truth(true, Some(place))),
+            ChunkKind::Trigger(inner) => (self.chunk(inner, around)?.0, Some(truth(true, Some(place)))),
             ChunkKind::Value(expr) => always(self.compared(BinaryOp::Eq, expr, around, place)?),
             ChunkKind::Compare(op, expr) => always(self.compared(*op, expr, around, place)?),
             ChunkKind::Condition(expr) => {
@@ -141,7 +150,7 @@ impl Binder<'_> {
             }
             ChunkKind::Interval(interval) => always(self.interval(interval, around, place)?),
             ChunkKind::Guarded(arms) => {
-                let (mut first, mut later) = always(truth(false, Some(place)));
+                let mut out = always(truth(false, Some(place)));
                 for arm in arms.iter().rev() {
                     let guard = self.operand(&arm.guard, Some(around.own), None, around.file)?;
                     let guard = convert::logical(guard).map_err(typed(place))?;
@@ -151,9 +160,9 @@ impl Binder<'_> {
                         scalar: BOOL,
                         place: Some(place),
                     };
-                    (first, later) = (choose(then.0, first), choose(then.1, later));
+                    out = joined(then, out, choose);
                 }
-                (first, later)
+                out
             }
             ChunkKind::Predicate(predicate) => always(self.predicate(predicate, around, place)?),
         })
@@ -358,6 +367,7 @@ fn value(literal: &Literal, place: Place) -> Result<Operand<Leaf>> {
     };
     match &literal.value {
         LiteralValue::Bool(value) => Ok(of(BOOL, u64::from(*value))),
+        LiteralValue::Int(value, None) => Ok(Operand::Integer(*value, Some(place))),
         LiteralValue::Int(value, prefix) => {
             number(prefix, TokenKind::Integer, &value.unsigned_abs().to_string(), *value < 0)
         }

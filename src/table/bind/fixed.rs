@@ -22,7 +22,7 @@ impl BoundTable {
         for cell in self.rows.iter_mut().flat_map(|row| &mut row.cells).flatten() {
             let BoundCell { mut first, mut later, place } = BoundCell::clone(cell);
             read(&mut first);
-            read(&mut later);
+            later.iter_mut().for_each(&read);
             *cell = Arc::new(BoundCell { first, later, place });
         }
     }

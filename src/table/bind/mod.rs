@@ -101,12 +101,24 @@ pub struct BoundGlobal {
 /// A cell, of type `BOOL`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundCell {
-    /// What holds in the row's first cycle.
-    pub first: Term,
-    /// What holds in its later ones: the same without the triggers.
-    pub later: Term,
+    first: Term,
+    /// What holds in the later cycles, where that is something else.
+    later: Option<Term>,
     /// Where it stands.
     pub place: Place,
+}
+
+impl BoundCell {
+    /// What holds in the row's first cycle, or in a later one: the same without the triggers.
+    #[must_use]
+    pub fn constraint(&self, first: bool) -> &Term {
+        self.later.as_ref().filter(|_| !first).unwrap_or(&self.first)
+    }
+
+    /// The constraints that it has, each once.
+    pub fn distinct(&self) -> impl Iterator<Item = &Term> {
+        std::iter::once(&self.first).chain(&self.later)
+    }
 }
 
 /// A row.
@@ -153,7 +165,7 @@ impl BoundTable {
     pub fn constraints(&self, row: usize, assumptions: bool, first: bool) -> impl Iterator<Item = &Term> {
         let cells = self.rows[row].cells.iter().zip(&self.assumptions);
         let cells = cells.filter(move |(_, assumption)| **assumption == assumptions);
-        cells.filter_map(move |(cell, _)| cell.as_ref().map(|cell| if first { &cell.first } else { &cell.later }))
+        cells.filter_map(move |(cell, _)| cell.as_ref().map(|cell| cell.constraint(first)))
     }
 
     /// How far back each variable is asked for.
@@ -162,7 +174,7 @@ impl BoundTable {
         let mut out = vec![0; self.variables.len()];
         let cells = self.rows.iter().flat_map(|row| row.cells.iter().flatten());
         for cell in cells {
-            for term in [&cell.first, &cell.later] {
+            for term in cell.distinct() {
                 leaves(term, &mut |leaf| {
                     if let Leaf::Variable { index, ago } = leaf {
                         out[index] = out[index].max(ago);

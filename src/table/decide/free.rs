@@ -21,7 +21,7 @@ pub fn free(bound: &BoundTable) -> Vec<Vec<usize>> {
 }
 
 fn admits_all(bound: &BoundTable, cell: &BoundCell) -> bool {
-    [&cell.first, &cell.later].into_iter().all(|constraint| {
+    cell.distinct().all(|constraint| {
         let mut puzzle = Puzzle::new(bound, false);
         let Some(holds) = puzzle.holds(constraint, 0, false) else { return false };
         let fails = puzzle.pool.not(holds);

@@ -48,7 +48,7 @@ fn cells(puzzle: &mut Puzzle<'_>) -> Option<Cells> {
         for (column, cell) in row.cells.iter().enumerate() {
             let Some(cell) = cell else { continue };
             for first in [true, false] {
-                let constraint = if first { &cell.first } else { &cell.later };
+                let constraint = cell.constraint(first);
                 let key = (std::sync::Arc::as_ptr(cell), first);
                 let term = match known.get(&key) {
                     Some(term) => *term,

@@ -126,7 +126,7 @@ fn constrain(
         let cycle = start + i64::try_from(at).unwrap_or(0);
         for (column, cell) in bound.rows[row].cells.iter().enumerate() {
             let Some(cell) = cell else { continue };
-            let constraint = if at == 0 { &cell.first } else { &cell.later };
+            let constraint = cell.constraint(at == 0);
             let term = puzzle.holds(constraint, cycle, bound.assumptions[column]);
             let term = term.ok_or_else(|| NoInstance::Unusable("a cell has no meaning for the solver".to_owned()))?;
             parts.push((term, Some((row, column))));

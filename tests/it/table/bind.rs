@@ -95,7 +95,7 @@ fn holds(header: &str, text: &str, values: &[(&str, i128)]) -> (bool, bool) {
         assert_eq!(term.scalar, Scalar::Bool);
         eval::evaluate(term, &mut Run(&table, values)).is_ok_and(|bits| bits == 1)
     };
-    (judge(&cell.first), judge(&cell.later))
+    (judge(cell.constraint(true)), judge(cell.constraint(false)))
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn functions_of_the_table_are_written_out() {
     assert_eq!((table.errors, table.unsupported.len()), (0, 0), "{:?}", project.findings);
     let judge = |values: &[(&str, i128)]| -> Vec<bool> {
         let cells = table.rows[0].cells.iter().flatten();
-        cells.map(|cell| eval::evaluate(&cell.first, &mut Run(&table, values)) == Ok(1)).collect()
+        cells.map(|cell| eval::evaluate(cell.constraint(true), &mut Run(&table, values)) == Ok(1)).collect()
     };
     assert_eq!(judge(&[("Level", 6), ("Pump", 1)]), [true, true, true]);
     assert_eq!(judge(&[("Level", 5), ("Pump", 1)]), [false, false, false]);
