@@ -94,6 +94,11 @@ pub(crate) fn faults(bytes: &[u8]) -> Option<Vec<String>> {
     Some(out.into_iter().collect())
 }
 
+/// How many files are attached; `None` where this machine cannot tell.
+pub(crate) fn attached(bytes: &[u8]) -> Option<usize> {
+    Some(Pdf::read(bytes)?.dicts().iter().filter(|dict| dict.contains_key("/EF")).count())
+}
+
 type Ask<'a> = dyn FnMut(bool, &str) + 'a;
 
 fn intents(pdf: &Pdf, catalog: &Value, ask: &mut Ask<'_>) {

@@ -80,6 +80,25 @@ fn a_bundle_of_each_sample_verifies_in_another_folder() {
     rungbook().current_dir(stranger.path()).args(CHECK).assert().code(1);
 }
 
+/// The report is a PDF/A-3 with the records inside it.
+#[test]
+#[cfg(feature = "pdf")]
+fn the_report_of_a_bundle_is_archival() {
+    let dir = tempfile::TempDir::new().expect("a folder");
+    let (tree, path) = (dir.path().join("flawed"), dir.path().join("release.zip"));
+    copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/flawed"), &tree);
+    rungbook().args(["verify", "-q", "--timeout", "0.5"]).arg(&tree).output().expect("it runs");
+    rungbook().args(["evidence", "bundle", "-q", "-o"]).arg(&path).arg(&tree).assert().code(0);
+    let (files, faults) = archive::read(&fs::read(&path).expect("written"), &|_| 0);
+    assert!(faults.is_empty(), "{faults:?}");
+    let report = &files.iter().find(|(name, _)| name.as_str() == "report/evidence.pdf").expect("a report").1;
+    let records = files.keys().filter(|name| name.starts_with("records/")).count();
+    assert!(crate::archival::attached(report).is_none_or(|inside| records > 0 && inside >= records), "{records}");
+    if let Some(faults) = crate::archival::faults(report) {
+        assert_eq!(faults, Vec::<String>::new());
+    }
+}
+
 /// A root that holds the tool, the libraries that it is linked with, the bundle and the key, and nothing else; no
 /// network, no variables, no home.
 #[test]
