@@ -88,7 +88,7 @@ impl InductionSearch {
                     self.wanted = Some(self.k);
                     return None;
                 }
-                Reply::Yes if self.set_apart() => {}
+                Reply::Yes if self.problem.is_whole && self.set_apart() => {}
                 Reply::Yes => {
                     self.step.require(&[!bad]);
                     self.k += 1;

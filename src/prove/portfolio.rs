@@ -1,8 +1,8 @@
 //! All engines on one property.
 //!
 //! With one job the order is fixed and shares are counted in work, not in time, so that the same model gives the same
-//! answer with the same evidence: a short search for a violation, mining, then IC3 and induction (which searches for
-//! violations on the side) with what was mined, and IC3 without, in turns that grow. With two jobs induction runs beside
+//! answer with the same evidence: a short search for a violation, a turn of induction and of IC3, mining, then IC3 and
+//! induction (which searches for violations on the side) with what was mined, and IC3 without, in turns that grow. With two jobs induction runs beside
 //! mining and IC3, and the first answer counts: its kind is the same, its evidence may differ.
 
 use super::bmc::BmcSearch;
@@ -49,9 +49,9 @@ const TURN: u64 = 20_000_000;
 /// Decides the property.
 #[must_use]
 pub fn decide(model: &Model, property: usize, options: &Options, budget: &Budget, listener: Listener<'_>) -> Outcome {
-    let reduced = Reduced::new(model, property);
-    let problem = Problem::new(&reduced.model, 0);
-    let hints = Hints { words: reduced.words(&options.hints.words) };
+    let reduced = Reduced::new(model, property, &budget.stop());
+    let problem = reduced.problem();
+    let hints = Hints { words: reduced.words(model, &options.hints.words) };
     let outcome = if options.jobs > 1 {
         side_by_side(problem, &hints, budget, listener)
     } else {
@@ -84,6 +84,14 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
     let safe = look.depth();
     drop(look);
     let mut plain = Ic3Search::new(problem.clone());
+    let mut short = InductionSearch::new(problem.clone());
+    for (search, engine) in [(&mut short as &mut dyn Search, "induction"), (&mut plain, "ic3")] {
+        match search.advance(TURN, budget, listener) {
+            Some(answer) if answer.is_final() => return Outcome { answer, engine },
+            _ => {}
+        }
+    }
+    drop(short);
     let problem = match enrich(problem, hints, budget, listener) {
         Ok(problem) => problem,
         Err(outcome) => return outcome,

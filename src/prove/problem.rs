@@ -27,6 +27,9 @@ pub(crate) struct Problem {
     pub(crate) signals: Vec<Signal>,
     /// Clauses over latches' cones, inductive together.
     pub(crate) facts: Vec<Vec<Lit>>,
+    /// Whether states of the model are equal only where those are that the proof is about, so that an induction may look at
+    /// paths of different states alone.
+    pub(crate) is_whole: bool,
 }
 
 impl Problem {
@@ -37,7 +40,7 @@ impl Problem {
             .iter()
             .map(|l| Signal { now: l.lit, next: l.next, initial: l.initial, is_latch: true })
             .collect();
-        Self { model: model.clone(), bad: model.bad[property], signals, facts: Vec::new() }
+        Self { model: model.clone(), bad: model.bad[property], signals, facts: Vec::new(), is_whole: true }
     }
 
     /// Adds a predicate over latches as a signal; nothing where it is one already or constant.

@@ -1,6 +1,7 @@
 //! A smaller model for a model, and the way back: runs and invariants of the one as those of the other.
 
 use super::{Aig, Gate, Latch, Lit, Model, Trace};
+use crate::logic::hash::FastMap;
 
 /// A clause over latches: their indices, each with the value that satisfies.
 pub type LatchClause = Vec<(usize, bool)>;
@@ -17,7 +18,11 @@ pub struct Reduced {
     /// Clauses over the old latches that hold in all first states and are inductive together, under the constraints of the
     /// cycle that is left.
     pub facts: Vec<LatchClause>,
-    old_latches: usize,
+    /// For each old latch, the latch of the smaller model or the constant that it became; false too where it matters to
+    /// nothing.
+    pub states: Vec<Lit>,
+    /// The old latches' first values; false where they have none.
+    first: Vec<bool>,
     old_inputs: usize,
 }
 
@@ -25,14 +30,15 @@ impl Reduced {
     /// The model itself.
     #[must_use]
     pub fn of(model: Model) -> Self {
-        let (latches, inputs) = (model.latches.len(), model.inputs.len());
+        let inputs = model.inputs.len();
         Self {
-            model,
-            latches: (0..latches).collect(),
+            latches: (0..model.latches.len()).collect(),
             inputs: (0..inputs).collect(),
             facts: Vec::new(),
-            old_latches: latches,
+            states: model.latches.iter().map(|latch| latch.lit).collect(),
+            first: first(&model),
             old_inputs: inputs,
+            model,
         }
     }
 
@@ -41,12 +47,17 @@ impl Reduced {
     pub fn then(self, reduce: impl FnOnce(&Model) -> Self) -> Self {
         let next = reduce(&self.model);
         let facts = self.clauses(&next.facts);
+        let index_of: FastMap<u32, usize> =
+            self.model.latches.iter().enumerate().map(|(i, l)| (l.lit.node(), i)).collect();
+        let on =
+            |lit: &Lit| index_of.get(&lit.node()).map_or(*lit, |index| next.states[*index].invert_if(lit.inverted()));
         Self {
             latches: next.latches.iter().map(|latch| self.latches[*latch]).collect(),
             inputs: next.inputs.iter().map(|input| self.inputs[*input]).collect(),
             model: next.model,
             facts,
-            old_latches: self.old_latches,
+            states: self.states.iter().map(on).collect(),
+            first: self.first,
             old_inputs: self.old_inputs,
         }
     }
@@ -61,16 +72,35 @@ impl Reduced {
     /// A run of the smaller model as one of the old model.
     #[must_use]
     pub fn trace(&self, trace: &Trace) -> Trace {
-        let spread = |values: &[bool], places: &[usize], length| {
-            let mut out = vec![false; length];
+        let spread = |values: &[bool], places: &[usize], mut out: Vec<bool>| {
             for (place, value) in places.iter().zip(values) {
                 out[*place] = *value;
             }
             out
         };
-        let inputs = trace.inputs.iter().map(|cycle| spread(cycle, &self.inputs, self.old_inputs));
-        Trace { latches: spread(&trace.latches, &self.latches, self.old_latches), inputs: inputs.collect() }
+        let inputs = trace.inputs.iter().map(|cycle| spread(cycle, &self.inputs, vec![false; self.old_inputs]));
+        Trace { latches: spread(&trace.latches, &self.latches, self.first.clone()), inputs: inputs.collect() }
     }
+
+    /// Whether the latches that are gone say nothing of their own: each is constant or follows one that is left.
+    #[must_use]
+    pub fn explains_all(&self) -> bool {
+        let mut explained = vec![false; self.first.len()];
+        self.latches.iter().for_each(|latch| explained[*latch] = true);
+        // What follows a latch that a later step took away stands before what is known of that one.
+        for fact in self.facts.iter().rev() {
+            match fact.as_slice() {
+                [(latch, _)] => explained[*latch] = true,
+                [(latch, _), (other, _)] => explained[*latch] |= explained[*other],
+                _ => {}
+            }
+        }
+        explained.into_iter().all(|explained| explained)
+    }
+}
+
+fn first(model: &Model) -> Vec<bool> {
+    model.latches.iter().map(|latch| latch.initial.unwrap_or_default()).collect()
 }
 
 /// A literal through a map of nodes.
@@ -137,8 +167,8 @@ pub(super) fn rebuild(model: &Model, substitute: &[Lit], facts: Vec<LatchClause>
         bad: model.bad.iter().map(|lit| new(*lit)).collect(),
         aig,
     };
-    let (old_latches, old_inputs) = (model.latches.len(), model.inputs.len());
-    Reduced { model: out, latches, inputs, facts, old_latches, old_inputs }
+    let states = model.latches.iter().map(|latch| new(latch.lit)).collect();
+    Reduced { latches, inputs, facts, states, first: first(model), old_inputs: model.inputs.len(), model: out }
 }
 
 /// The cone of influence: what bad literals and constraints depend on.

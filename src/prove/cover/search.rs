@@ -7,7 +7,6 @@ use super::super::bmc::{Reply, Unrolled};
 use super::super::decide::certificate;
 use super::super::engine::{Answer, Budget, Cancel, Search};
 use super::super::ic3::Ic3Search;
-use super::super::problem::Problem;
 use super::super::reduce::Reduced;
 use super::frontier::Frontier;
 use super::walk::Walker;
@@ -123,8 +122,8 @@ fn proofs(
             never[target] = Some(Certificate { k: 1, ..Certificate::default() });
             continue;
         }
-        let reduced = Reduced::new(&blasted.model, target);
-        let mut search = Ic3Search::new(Problem::new(&reduced.model, 0));
+        let reduced = Reduced::cone(&blasted.model, target);
+        let mut search = Ic3Search::new(reduced.problem());
         let answer = search.advance(share, budget, &|_| {});
         match answer.map(|answer| reduced.lift(&blasted.model, answer)) {
             Some(Answer::Proved(proof)) => never[target] = Some(certificate(blasted, proof)),

@@ -4,7 +4,6 @@ use super::super::bmc::BmcSearch;
 use super::super::decide::{Choice, together};
 use super::super::engine::{Answer, Budget, Cancel, Search};
 use super::super::ic3::Ic3Search;
-use super::super::problem::Problem;
 use super::super::product::Product;
 use super::super::reduce::Reduced;
 use crate::logic::aig::Model;
@@ -38,27 +37,27 @@ pub struct Seen {
 #[must_use]
 pub fn seen(product: &Product) -> Seen {
     let whole = blast(&together(&product.system));
-    Seen { cone: Reduced::new(&whole.model, 0).model, whole }
+    Seen { cone: Reduced::cone(&whole.model, 0).model().clone(), whole }
 }
 
 /// Tries a mutant.
 #[must_use]
 pub fn trial(product: &Product, original: &Seen, cancel: &Cancel) -> Trial {
     let blasted = blast(&together(&product.system));
-    let reduced = Reduced::new(&blasted.model, 0);
+    let reduced = Reduced::cone(&blasted.model, 0);
     if same(&blasted.model, &original.whole.model) && blasted.outputs == original.whole.outputs {
         return Trial::Same;
     }
     // Nothing that bears on the table has changed, and the block conforms.
-    if same(&reduced.model, &original.cone) {
+    if same(reduced.model(), &original.cone) {
         return Trial::Conforms;
     }
     let budget = Budget { cancel: cancel.clone(), ..Budget::default() };
-    let mut search = BmcSearch::new(Problem::new(&reduced.model, 0));
+    let mut search = BmcSearch::new(reduced.problem());
     let mut answer = search.advance(SEARCH, &budget, &|_| {});
     let mut depth = search.depth();
     if answer.is_none() {
-        let mut proof = Ic3Search::new(Problem::new(&reduced.model, 0));
+        let mut proof = Ic3Search::new(reduced.problem());
         answer = proof.advance(PROOF, &budget, &|_| {});
         depth = depth.max(proof.depth());
     }
