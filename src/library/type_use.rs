@@ -106,9 +106,9 @@ fn word_end(bytes: &[u8], at: usize, part: impl Fn(u8) -> bool) -> usize {
     bytes[at..].iter().position(|c| !part(*c)).map_or(bytes.len(), |n| at + n)
 }
 
-/// The offset of the quote that closes the one at `at`, or of the last byte.
+/// The offset of the quote that closes the one at `at`, or the end.
 fn skip(bytes: &[u8], at: usize, quote: u8) -> usize {
-    bytes[at + 1..].iter().position(|c| *c == quote).map_or(bytes.len() - 1, |n| at + 1 + n)
+    bytes[at + 1..].iter().position(|c| *c == quote).map_or(bytes.len(), |n| at + 1 + n)
 }
 
 #[cfg(test)]
@@ -132,5 +132,12 @@ mod tests {
         assert_eq!(names("INT (16#FF..INT#10)"), [("INT".to_owned(), false)]);
         assert_eq!(names("STRING('a b')"), [("STRING".to_owned(), false)]);
         assert_eq!(names("\"My Type\""), [("My Type".to_owned(), false)]);
+    }
+
+    #[test]
+    fn a_quote_that_nothing_closes_reaches_to_the_end() {
+        assert_eq!(names("\""), [(String::new(), false)]);
+        assert_eq!(names("\"Maß"), [("Maß".to_owned(), false)]);
+        assert_eq!(names("INT 'ß"), [("INT".to_owned(), false)]);
     }
 }

@@ -220,8 +220,13 @@ fn source(choices: &mut Choices<'_>) -> String {
 #[test]
 fn sources_mean_the_same_interpreted_and_translated() {
     let count = (cases(400) / 10).max(1);
-    let config =
-        ProptestConfig { cases: count, max_shrink_iters: 2_000, failure_persistence: None, ..Default::default() };
+    let config = ProptestConfig {
+        cases: count,
+        max_shrink_iters: 2_000,
+        max_shrink_time: 120_000,
+        failure_persistence: None,
+        ..Default::default()
+    };
     let cycles = std::cell::Cell::new(0);
     let result = TestRunner::new(config).run(&prop::collection::vec(any::<u32>(), 0..1500), |stream| {
         let mut choices = Choices::new(&stream);
