@@ -90,7 +90,7 @@ fn rows(table: &TableView, lanes: &[Lane<'_>], prose: &Prose<'_>, signs: &mut Si
             duration_meaning: tip(&row.duration_meaning, &row.duration_signs),
             duration_sign: signs.first(&row.duration_signs),
             remark: markup(&prose.inlines(&row.remark)),
-            sentence: row.sentence.as_str(),
+            sentence: markup(&message(&row.sentence)),
             brackets: Value::from(lanes.iter().filter_map(|lane| bracket_cell(lane, i)).collect::<Vec<_>>()),
         }
     };
