@@ -45,6 +45,8 @@ pub type Listener<'a> = &'a (dyn Fn(Progress) + Sync);
 /// Work for the first search for violations, and for the first turn of each engine.
 const LOOK: u64 = 4_000_000;
 const TURN: u64 = 20_000_000;
+/// Work for the turns before mining.
+const SHORT: u64 = 8_000_000;
 
 /// Decides the property.
 #[must_use]
@@ -86,7 +88,7 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
     let mut plain = Ic3Search::new(problem.clone());
     let mut short = InductionSearch::new(problem.clone());
     for (search, engine) in [(&mut short as &mut dyn Search, "induction"), (&mut plain, "ic3")] {
-        match search.advance(TURN, budget, listener) {
+        match search.advance(SHORT, budget, listener) {
             Some(answer) if answer.is_final() => return Outcome { answer, engine },
             _ => {}
         }

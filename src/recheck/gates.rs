@@ -62,6 +62,11 @@ impl Gates {
         }
     }
 
+    /// The value of a literal in the model that [`Gates::satisfiable`] found; false where it did not matter.
+    pub(super) fn value(&self, lit: Lit) -> bool {
+        self.solver.value_lit(lit) == lbool::TRUE
+    }
+
     pub(super) fn and(&mut self, a: Lit, b: Lit) -> Lit {
         let (a, b) = if a <= b { (a, b) } else { (b, a) };
         match (self.known(a), self.known(b)) {

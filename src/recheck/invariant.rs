@@ -1,5 +1,6 @@
 //! Checks a [`Certificate`] against its [`System`] by propositional queries, each in a solver of its own.
 
+use super::cases;
 use super::cnf::{self, Words};
 use super::gates::{Gates, Word};
 use crate::logic::certificate::{Certificate, Fact};
@@ -27,22 +28,31 @@ pub enum Rejection {
 }
 
 /// A system in clauses, cycle by cycle.
-struct Unrolled<'s> {
-    system: &'s System,
-    gates: Gates,
+pub(super) struct Unrolled<'s> {
+    pub(super) system: &'s System,
+    pub(super) gates: Gates,
     cycles: Vec<Words>,
 }
 
 impl<'s> Unrolled<'s> {
     /// One cycle with free states.
-    fn new(system: &'s System, stop: &Stop) -> Self {
+    pub(super) fn new(system: &'s System, stop: &Stop) -> Self {
+        Self::merged(system, stop, std::iter::empty())
+    }
+
+    /// One cycle in which each first state of a pair is the second one.
+    pub(super) fn merged(system: &'s System, stop: &Stop, pairs: impl Iterator<Item = (usize, usize)>) -> Self {
         let stop = stop.clone();
         let mut out = Self { system, gates: Gates::new(Box::new(move || stop())), cycles: vec![Words::new()] };
+        for (state, same) in pairs {
+            let word = out.word(0, system.states[same].variable);
+            out.cycles[0].insert(system.states[state].variable, word);
+        }
         out.add_constraints(0);
         out
     }
 
-    fn word(&mut self, cycle: usize, term: crate::logic::term::Term) -> Word {
+    pub(super) fn word(&mut self, cycle: usize, term: crate::logic::term::Term) -> Word {
         cnf::word(&mut self.gates, &self.system.pool, &mut self.cycles[cycle], term)
     }
 
@@ -70,7 +80,7 @@ impl<'s> Unrolled<'s> {
         self.add_constraints(last + 1);
     }
 
-    fn fact(&mut self, cycle: usize, gates: &[Lit], fact: Fact) -> Lit {
+    pub(super) fn fact(&mut self, cycle: usize, gates: &[Lit], fact: Fact) -> Lit {
         let (lit, value) = match fact {
             Fact::Bit(literal) => {
                 let word = self.word(cycle, self.system.states[literal.state as usize].variable);
@@ -94,21 +104,21 @@ impl<'s> Unrolled<'s> {
         certificate.clauses.iter().map(|facts| clause(self, facts)).collect()
     }
 
-    fn assume_invariant(&mut self, cycle: usize, certificate: &Certificate) {
+    pub(super) fn assume_invariant(&mut self, cycle: usize, certificate: &Certificate) {
         for clause in self.invariant(cycle, certificate) {
             self.gates.clause(&clause);
         }
     }
 
     /// Whether every obligation holds.
-    fn safe(&mut self, cycle: usize) -> Lit {
+    pub(super) fn safe(&mut self, cycle: usize) -> Lit {
         let words: Vec<Lit> =
             self.system.obligations.iter().flat_map(|obligation| self.word(cycle, obligation.term)).collect();
         self.gates.all(&words)
     }
 
     /// Whether no model has all of `lits`.
-    fn refute(&mut self, lits: &[Lit], otherwise: Rejection) -> Result<(), Rejection> {
+    pub(super) fn refute(&mut self, lits: &[Lit], otherwise: Rejection) -> Result<(), Rejection> {
         match self.gates.satisfiable(lits) {
             Some(false) => Ok(()),
             Some(true) => Err(otherwise),
@@ -175,6 +185,9 @@ fn inductive(system: &System, certificate: &Certificate, stop: &Stop) -> Result<
 }
 
 fn safe(system: &System, certificate: &Certificate, stop: &Stop) -> Result<(), Rejection> {
+    if certificate.k == 1 && cases::are_worthwhile(system) {
+        return cases::safe(system, certificate, stop);
+    }
     let k = certificate.k as usize;
     let steps = if k == 1 { 0 } else { k };
     let mut path = Unrolled::new(system, stop);

@@ -5,6 +5,7 @@
 //! bit-blaster, not the solver. What it trusts, therefore: the translation of block and table into one system, which is
 //! tested against the interpreter and the game, and this room.
 
+mod cases;
 mod cnf;
 mod float;
 mod gates;

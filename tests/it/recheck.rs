@@ -240,3 +240,52 @@ fn certificates_are_accepted_for_what_they_prove_and_nothing_else() {
     let impatient: Stop = Arc::new(|| true);
     assert_eq!(check(&system, &certificate(Vec::new(), 2), &impatient), Err(Rejection::OutOfTime));
 }
+
+/// A block that divides what it remembers, and a table that divides what it remembers: while `g`, the two are equal.
+fn remembering() -> System {
+    let mut system = System::default();
+    let input = |system: &mut System, width: u32, name: &str| {
+        let variable = system.pool.variable(width, name);
+        system.inputs.push(Input { variable, name: name.to_owned(), origin: None });
+        variable
+    };
+    let [guard, x, y, c] =
+        [("in g", 1), ("x", 32), ("y", 32), ("c", 32)].map(|(name, width)| input(&mut system, width, name));
+    let [g, a, b] = [("g", 1), ("a", 32), ("b", 32)].map(|(name, width)| system.pool.variable(width, name));
+    let other = system.pool.ite(guard, x, y);
+    for (variable, next, name) in [(g, guard, "g"), (a, x, "a"), (b, other, "b")] {
+        let initial = Some(system.pool.constant(system.pool.width(variable), 0));
+        system.states.push(State { variable, name: name.to_owned(), initial, next, origin: None });
+    }
+    let mut of = |word: Term| {
+        let (product, quotient) = (system.pool.plain(Op::Mul, &[word, c]), system.pool.plain(Op::Udiv, &[word, c]));
+        system.pool.plain(Op::Add, &[product, quotient])
+    };
+    let (left, right) = (of(a), of(b));
+    let same = system.pool.plain(Op::Eq, &[left, right]);
+    let not = system.pool.plain(Op::Not, &[g]);
+    let safe = system.pool.plain(Op::Or, &[not, same]);
+    system.obligations = vec![labelled(safe)];
+    system
+}
+
+/// That `a` and `b` are equal in `bits` while `g`.
+fn equal_while(bits: std::ops::Range<u32>) -> Certificate {
+    let fact = |state: u32, bit: u32, value: bool| Fact::Bit(StateBit { state, bit, value });
+    let clauses = bits
+        .flat_map(|bit| [true, false].map(|value| vec![fact(0, 0, false), fact(1, bit, value), fact(2, bit, !value)]));
+    Certificate { k: 1, clauses: clauses.collect(), ..Certificate::default() }.sorted()
+}
+
+#[test]
+fn what_an_invariant_makes_equal_is_calculated_once() {
+    let system = remembering();
+    assert_eq!(check(&system, &equal_while(0..32), &patient()), Ok(()));
+    assert_eq!(check(&system, &equal_while(1..32), &patient()), Err(Rejection::NotSafe));
+    assert_eq!(check(&system, &equal_while(0..31), &patient()), Err(Rejection::NotSafe));
+    assert_eq!(check(&system, &trivial(), &patient()), Err(Rejection::NotSafe));
+    // A case that the invariant rules out says nothing about the others.
+    let mut ruled_out = equal_while(0..0);
+    ruled_out.clauses.push(vec![Fact::Bit(StateBit { state: 0, bit: 0, value: false })]);
+    assert_eq!(check(&system, &ruled_out, &patient()), Err(Rejection::NotInductive(0)));
+}

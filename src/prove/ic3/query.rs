@@ -39,6 +39,10 @@ impl Ic3Search {
             if let Some(reason) = self.budget.exhausted() {
                 return Err(Stop::End(reason));
             }
+            // What was learnt stays, so that the question is easier when it comes again.
+            if self.work > self.pause {
+                return Err(Stop::Pause);
+            }
             budget = budget.saturating_mul(2);
         }
     }

@@ -12,6 +12,8 @@ use crate::logic::aig::{Lit, Model};
 /// Work spent on one guess before it is dropped, and on all.
 const PATIENCE: u64 = 2_000_000;
 const ENOUGH: u64 = 500_000_000;
+/// How many are asked about at once.
+const BLOCK: usize = 64;
 
 /// Guesses, and what is left of them.
 pub(super) struct Houdini {
@@ -19,6 +21,8 @@ pub(super) struct Houdini {
     bad: Lit,
     clauses: Vec<Vec<Lit>>,
     later: Vec<Vec<Lit>>,
+    /// For each clause, whether it fails in the next cycle.
+    fails: Vec<Lit>,
     alive: Vec<bool>,
     encoding: Encoding,
     random: Random,
@@ -31,12 +35,15 @@ impl Houdini {
         let nexts = problem.next_of(&lits);
         let map: BTreeMap<Lit, Lit> = lits.iter().copied().zip(nexts).collect();
         let later: Vec<Vec<Lit>> = clauses.iter().map(|c| c.iter().map(|l| map[l]).collect()).collect();
+        let aig = &mut problem.model.aig;
+        let fails: Vec<Lit> = later.iter().map(|c| c.iter().fold(Lit::TRUE, |all, &l| aig.and(all, !l))).collect();
         let mut roots = problem.roots();
         roots.extend(map.iter().flat_map(|(&a, &b)| [a, b]));
+        roots.extend(&fails);
         let encoding = Encoding::new(&problem.model.aig, &roots);
         let alive = vec![true; clauses.len()];
         let (model, bad) = (problem.model.clone(), problem.bad);
-        Self { model, bad, clauses, later, alive, encoding, random: Random::new(2), work: 0 }
+        Self { model, bad, clauses, later, fails, alive, encoding, random: Random::new(2), work: 0 }
     }
 
     /// Drops guesses until the rest holds at first and is preserved.
@@ -79,25 +86,56 @@ impl Houdini {
         asker.solver.stop = budget.stop();
         let start = asker.solver.ticks;
         let mut dropped = false;
-        for index in 0..self.clauses.len() {
-            if !self.alive[index] {
-                continue;
-            }
-            check(index, budget)?;
-            let against: Vec<Lit> = self.later[index].iter().map(|&l| !l).collect();
-            match asker.ask(&self.encoding, &against, None, PATIENCE) {
-                Some(false) => continue,
-                Some(true) => self.drop_refuted(&asker),
-                None => {}
-            }
-            self.alive[index] = false;
-            dropped = true;
+        for block in (0..self.clauses.len()).collect::<Vec<usize>>().chunks(BLOCK) {
+            check(0, budget)?;
+            dropped |= self.check_block(block, &mut asker);
             if self.work + (asker.solver.ticks - start) > ENOUGH {
                 return Err(Reason::Incomplete);
             }
         }
         self.work += asker.solver.ticks - start;
         Ok(dropped)
+    }
+
+    /// Drops those of a block that fail in the next cycle, asked for all at once; whether one had to go.
+    fn check_block(&mut self, block: &[usize], asker: &mut Asker) -> bool {
+        let mut dropped = false;
+        loop {
+            let alive: Vec<usize> = block.iter().copied().filter(|&index| self.alive[index]).collect();
+            let any: Vec<Lit> = alive.iter().map(|&index| self.fails[index]).filter(|&l| l != Lit::FALSE).collect();
+            if any.is_empty() || any.contains(&Lit::TRUE) {
+                alive
+                    .iter()
+                    .filter(|&&index| self.fails[index] == Lit::TRUE)
+                    .for_each(|&index| self.alive[index] = false);
+                if any.is_empty() {
+                    return dropped;
+                }
+                dropped = true;
+                continue;
+            }
+            let answer = asker.ask(&self.encoding, &[], Some(&any), PATIENCE * 2);
+            match answer {
+                Some(false) => return dropped,
+                Some(true) => self.drop_refuted(asker),
+                None => {}
+            }
+            dropped = true;
+            if answer.is_none() || alive.iter().all(|&index| self.alive[index]) {
+                self.check_each(&alive, asker);
+                return true;
+            }
+        }
+    }
+
+    /// Drops those that fail, or that take too long to ask about, one by one.
+    fn check_each(&mut self, clauses: &[usize], asker: &mut Asker) {
+        for &index in clauses {
+            let against: Vec<Lit> = self.later[index].iter().map(|&l| !l).collect();
+            if self.alive[index] && asker.ask(&self.encoding, &against, None, PATIENCE) != Some(false) {
+                self.alive[index] = false;
+            }
+        }
     }
 
     /// Drops every guess that fails one cycle after the state that was found, for its inputs or some like them.

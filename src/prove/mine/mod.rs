@@ -9,14 +9,18 @@
 //! The guesses are clauses over latches' cones, so that what survives is an ordinary invariant. Left out: gates over
 //! inputs (their equivalence is no invariant of states), induction over more than one cycle.
 
+mod cases;
 mod houdini;
 mod predicates;
 mod sample;
+mod witness;
 
 use super::engine::{Answer, Budget, Engine, Hints, Progress, Reason};
 use super::problem::Problem;
-use crate::logic::aig::{Gate, Lit, Model};
+use crate::logic::aig::{Gate, Lit, Model, Trace};
+use cases::Question;
 use houdini::Houdini;
+use predicates::Predicates;
 use sample::{Samples, Wanted};
 
 /// The engine.
@@ -58,15 +62,21 @@ const GUARDS: usize = 50;
 pub(crate) fn mine(mut problem: Problem, hints: &Hints, budget: &Budget) -> Result<Mined, Reason> {
     let words: Vec<Vec<Lit>> = hints.words.iter().filter(|w| w.len() > 1).cloned().collect();
     let guards = guards(&problem.model, &words);
-    let sampled = Samples::take(&problem.model, Wanted { nodes: &[], words: &words, guards: &guards });
-    let predicates = predicates::between(&mut problem, &words, &sampled);
-    let guesses = guess(&problem, &guards, &predicates);
+    let traces = witness::witnesses(&problem.model, &guards, budget);
+    let sampled = Samples::take(&problem.model, Wanted { nodes: &[], words: &words, guards: &guards }, &traces);
+    let Predicates { all: predicates, equal, values } = predicates::between(&mut problem, &words, &sampled);
+    let guesses = guess(&problem, (&guards, &values), &predicates, &traces);
     let mut houdini = Houdini::new(&mut problem, guesses);
     houdini.settle(budget)?;
-    if let Some(clauses) = houdini.imply_property(budget)? {
+    let facts = houdini.surviving();
+    let question = Question { model: &problem.model, bad: problem.bad, facts: &facts, equal: &equal };
+    let proved = match question.implied(&guards, budget) {
+        true => Some(facts.clone()),
+        false => houdini.imply_property(budget)?,
+    };
+    if let Some(clauses) = proved {
         return Ok(Mined::Proved(Answer::Proved(problem.proof(&clauses, 1, false))));
     }
-    let facts = houdini.surviving();
     let spoken: std::collections::BTreeSet<u32> = facts.iter().flatten().map(|l| l.node()).collect();
     problem.facts = facts;
     for predicate in predicates {
@@ -98,14 +108,15 @@ fn state_gates(model: &Model) -> Vec<Lit> {
 }
 
 /// Clauses that no random run contradicts.
-fn guess(problem: &Problem, guards: &[Lit], predicates: &[Lit]) -> Vec<Vec<Lit>> {
+fn guess(problem: &Problem, (guards, values): (&[Lit], &[Lit]), predicates: &[Lit], traces: &[Trace]) -> Vec<Vec<Lit>> {
     let model = &problem.model;
     let latches: Vec<Lit> = model.latches.iter().map(|l| l.lit).collect();
     let mut nodes = latches.clone();
     nodes.extend(state_gates(model));
+    nodes.extend(predicates.iter().chain(values).map(|lit| Lit::of(lit.node())));
     nodes.sort_unstable();
     nodes.dedup();
-    let samples = Samples::take(model, Wanted { nodes: &nodes, ..Wanted::default() });
+    let samples = Samples::take(model, Wanted { nodes: &nodes, ..Wanted::default() }, traces);
     let (mut guesses, leaders) = classes(&samples, &nodes);
     let mut paired: Vec<Lit> = Vec::new();
     for &lit in guards.iter().chain(predicates).chain(&latches) {
@@ -118,6 +129,16 @@ fn guess(problem: &Problem, guards: &[Lit], predicates: &[Lit]) -> Vec<Vec<Lit>>
             for (a, b) in [(a, b), (!a, b), (a, !b), (!a, !b)] {
                 if !samples.both(&nodes, !a, !b) {
                     guesses.push(vec![a, b]);
+                }
+            }
+        }
+    }
+    // Where a guard is true, what else is.
+    for &guard in guards.iter().chain(values).filter(|guard| samples.both(&nodes, **guard, **guard)) {
+        for &lit in predicates.iter().chain(&latches).filter(|lit| !(paired.contains(lit) && paired.contains(&guard))) {
+            for lit in [lit, !lit].into_iter().filter(|lit| lit.node() != guard.node()) {
+                if !samples.both(&nodes, guard, !lit) {
+                    guesses.push(vec![!guard, lit]);
                 }
             }
         }

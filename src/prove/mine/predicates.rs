@@ -9,7 +9,13 @@ use crate::logic::aig::{Aig, Lit};
 /// Most pairs of words that are related.
 const PAIRS: usize = 300;
 /// Most bounds.
-const BOUNDS: usize = 80;
+const BOUNDS: usize = 200;
+/// A word whose values are bounded takes no more of them, in so many samples.
+const COUNTED: usize = 64;
+const MANY: usize = 2_000;
+/// Most values of a word whose values are told apart one by one, and most such values of all words.
+const FEW: usize = 8;
+const CASES: usize = 60;
 
 /// `b + not a + carry`: whether that carries, which is `a < b` or, with a carry in, `a <= b`, unsigned.
 fn carries(aig: &mut Aig, a: &[Lit], b: &[Lit], carry: Lit) -> Lit {
@@ -88,15 +94,28 @@ fn relation(samples: impl Iterator<Item = (u64, u64)> + Clone, width: usize) -> 
     (values[2] != x).then_some((factor, offset))
 }
 
+/// Predicates over words.
+#[derive(Default)]
+pub(super) struct Predicates {
+    /// All of them, each once.
+    pub(super) all: Vec<Lit>,
+    /// Those that say that two words are equal, with the words.
+    pub(super) equal: Vec<(Lit, Vec<Lit>, Vec<Lit>)>,
+    /// Those that say that a word of few values has one of them.
+    pub(super) values: Vec<Lit>,
+}
+
 /// Adds the predicates to the problem's graph.
-pub(super) fn between(problem: &mut Problem, words: &[Vec<Lit>], samples: &Samples) -> Vec<Lit> {
+pub(super) fn between(problem: &mut Problem, words: &[Vec<Lit>], samples: &Samples) -> Predicates {
     let mut predicates = Vec::new();
+    let (mut same, mut values) = (Vec::new(), Vec::new());
     let aig = &mut problem.model.aig;
     let pairs: Vec<(usize, usize)> = (0..words.len()).flat_map(|i| (0..i).map(move |j| (i, j))).take(PAIRS).collect();
     for &(i, j) in &pairs {
         let (x, y) = (&words[j], &words[i]);
         if x.len() == y.len() {
             predicates.extend(orders(aig, x, y));
+            same.push((equal(aig, x, y), x.clone(), y.clone()));
         }
     }
     for (x, y, line) in lines(words, samples, &pairs) {
@@ -109,10 +128,23 @@ pub(super) fn between(problem: &mut Problem, words: &[Vec<Lit>], samples: &Sampl
             predicates.push(carries(aig, &low, &high, Lit::TRUE));
         }
     }
+    for (word, value) in cases(words, samples) {
+        let bits = &words[word];
+        let number = constant(bits.len(), value);
+        values.push(equal(aig, bits, &number));
+    }
+    predicates.extend(&values);
     let mut seen = BTreeSet::new();
     let mut plain: Vec<Lit> = predicates.iter().map(|p| Lit::of(p.node())).collect();
     plain.retain(|p| p.node() != 0 && seen.insert(*p));
-    plain
+    Predicates { all: plain, equal: same, values }
+}
+
+/// Words that take few values, more than one, and which.
+fn cases(words: &[Vec<Lit>], samples: &Samples) -> Vec<(usize, u64)> {
+    let values = |word: usize| samples.words[word].iter().copied().collect::<BTreeSet<u64>>();
+    let few = (0..words.len()).map(|word| (word, values(word))).filter(|(_, v)| (2..=FEW).contains(&v.len()));
+    few.flat_map(|(word, values)| values.into_iter().map(move |value| (word, value))).take(CASES).collect()
 }
 
 /// For no guard and for each, the samples in which it is true.
@@ -146,7 +178,10 @@ fn bounds(words: &[Vec<Lit>], samples: &Samples) -> BTreeSet<(usize, u64, u64)> 
     for places in kept(samples) {
         for word in 0..words.len() {
             let values = places.iter().map(|&at| samples.words[word][at]);
-            if let (Some(least), Some(most)) = (values.clone().min(), values.max())
+            let distinct: BTreeSet<u64> = values.take(MANY).collect();
+            if let (Some(&least), Some(&most)) = (distinct.first(), distinct.last())
+                && least < most
+                && distinct.len() <= COUNTED
                 && found.len() < BOUNDS
             {
                 found.insert((word, least, most));

@@ -1,7 +1,7 @@
 //! Random runs, and what nodes and words were in them.
 
 use super::super::simulate::{Random, Simulator};
-use crate::logic::aig::{Lit, Model};
+use crate::logic::aig::{Lit, Model, Trace};
 
 /// Values in the cycles that were looked at.
 pub(super) struct Samples {
@@ -27,11 +27,15 @@ pub(super) struct Wanted<'a> {
 const EPISODES: [(usize, u32); 10] =
     [(12, 1), (12, 3), (40, 1), (60, 4), (120, 5), (300, 6), (300, 4), (600, 7), (1200, 8), (1200, 10)];
 
+/// Cycles behind the end of a run that is followed.
+const BEYOND: usize = 4;
+
 /// Runs whose words are kept.
 const LANES: u32 = 8;
 
 impl Samples {
-    pub(super) fn take(model: &Model, wanted: Wanted<'_>) -> Self {
+    /// Of random runs, and of runs like `traces`.
+    pub(super) fn take(model: &Model, wanted: Wanted<'_>, traces: &[Trace]) -> Self {
         let mut samples = Self {
             nodes: vec![Vec::new(); wanted.nodes.len()],
             valid: Vec::new(),
@@ -41,6 +45,9 @@ impl Samples {
         let mut random = Random::new(1);
         for (cycles, calm) in EPISODES {
             samples.episode(model, wanted, &mut random, cycles, calm);
+        }
+        for trace in traces {
+            samples.follow(model, wanted, &mut random, trace);
         }
         samples
     }
@@ -67,6 +74,45 @@ impl Samples {
             if cycle < 64 || cycle % 8 == 0 {
                 self.record(&run, wanted, alive);
             }
+            if alive == 0 {
+                break;
+            }
+        }
+    }
+
+    /// Runs like `trace`, and a little further: one is the same, in the others some values differ.
+    fn follow(&mut self, model: &Model, wanted: Wanted<'_>, random: &mut Random, trace: &Trace) {
+        let mut vary = |value: bool| {
+            let rare = (0..4).fold(!1, |bits, _| bits & random.next());
+            rare ^ if value { u64::MAX } else { 0 }
+        };
+        let first: Vec<u64> = model
+            .latches
+            .iter()
+            .zip(&trace.latches)
+            .map(|(latch, &value)| match latch.initial {
+                Some(value) => {
+                    if value {
+                        u64::MAX
+                    } else {
+                        0
+                    }
+                }
+                None => vary(value),
+            })
+            .collect();
+        let mut run = Simulator::new(model);
+        run.start(|index| first[index]);
+        let mut alive = u64::MAX;
+        let last = trace.inputs.last().into_iter().cycle();
+        for (cycle, inputs) in trace.inputs.iter().chain(last).take(trace.inputs.len() + BEYOND).enumerate() {
+            if cycle > 0 {
+                run.step();
+            }
+            let inputs: Vec<u64> = inputs.iter().map(|&value| vary(value)).collect();
+            run.evaluate(|index| inputs[index]);
+            alive = model.constraints.iter().fold(alive, |all, &c| all & run.value(c));
+            self.record(&run, wanted, alive);
             if alive == 0 {
                 break;
             }
