@@ -45,7 +45,7 @@ pub type Listener<'a> = &'a (dyn Fn(Progress) + Sync);
 /// Work for the first search for violations, and for the first turn of each engine.
 const LOOK: u64 = 4_000_000;
 const TURN: u64 = 20_000_000;
-/// Work for the turns before mining.
+/// Work for the turn of induction before mining.
 const SHORT: u64 = 8_000_000;
 
 /// Decides the property.
@@ -87,8 +87,8 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
     drop(look);
     let mut plain = Ic3Search::new(problem.clone());
     let mut short = InductionSearch::new(problem.clone());
-    for (search, engine) in [(&mut short as &mut dyn Search, "induction"), (&mut plain, "ic3")] {
-        match search.advance(SHORT, budget, listener) {
+    for (search, engine, work) in [(&mut short as &mut dyn Search, "induction", SHORT), (&mut plain, "ic3", TURN)] {
+        match search.advance(work, budget, listener) {
             Some(answer) if answer.is_final() => return Outcome { answer, engine },
             _ => {}
         }

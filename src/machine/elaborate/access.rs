@@ -178,6 +178,16 @@ impl<'c> Elaborator<'c> {
             },
             _ => self.designate(base)?,
         };
+        self.field_of_designated(designated, name, node)
+    }
+
+    /// The field of this name of what was designated.
+    pub(super) fn field_of_designated(
+        &mut self,
+        designated: Designated,
+        name: &str,
+        node: Node<'c>,
+    ) -> Lowered<Designated> {
         match designated {
             Designated::Path(mut path) => {
                 if let Some(step) = self.step_field(&path, name)? {

@@ -43,8 +43,10 @@ fn associations(body: Body<'_>) -> Vec<Associated<'_>> {
     let mut known: BTreeMap<String, usize> = BTreeMap::new();
     for (number, step) in body.steps().enumerate() {
         for association in step.actions() {
-            let Some(name) = association.name() else { continue };
-            let key = fold(name.text());
+            let key = fold(&path(association));
+            if key.is_empty() {
+                continue;
+            }
             if let Some(phase) = qualifier(association).and_then(Qualifier::own) {
                 own[phase].push((key, vec![(number, association)]));
                 continue;
@@ -57,6 +59,11 @@ fn associations(body: Body<'_>) -> Vec<Associated<'_>> {
         }
     }
     own.into_iter().flatten().chain(order).collect()
+}
+
+/// The name of what a step does, as it is written.
+fn path(association: ActionAssociation<'_>) -> String {
+    association.names().map(ast::Name::text).collect::<Vec<_>>().join(".")
 }
 
 /// What the keys of a chart's variables begin with: nothing for a block's own one, the action's name for one of its actions.
@@ -300,8 +307,15 @@ impl<'c> Elaborator<'c> {
     /// An action of the block, or a Boolean variable.
     fn chart_target(&mut self, association: ActionAssociation<'c>) -> Lowered<Target> {
         let node = association.node();
-        let name = association.name().ok_or_else(|| self.incomplete(node))?.text();
-        match self.lookup(name, node)? {
+        let name = path(association);
+        let mut names = association.names().map(ast::Name::text);
+        let first = names.next().ok_or_else(|| self.incomplete(node))?;
+        let mut found = self.lookup(first, node)?;
+        for field in names {
+            let base = found.unwrap_or_else(|| Designated::Path(vec![first.to_owned()]));
+            found = Some(self.field_of_designated(base, field, node)?);
+        }
+        match found {
             Some(Designated::Member { this, item, .. }) if self.world.item(item).kind == ItemKind::Action => {
                 let body = self.block(|me| {
                     me.call_action(&this, item);

@@ -5,7 +5,7 @@ use super::{Ic3Search, Stop, negated, next, now};
 use crate::logic::aig::Lit;
 
 /// Work for the first try at a question; then twice as much.
-const FIRST_TRY: u64 = 20_000_000;
+const FIRST_TRY: u64 = 2_000_000;
 
 /// Which solver.
 #[derive(Clone, Copy)]

@@ -1,5 +1,8 @@
 //! Prose to markup: a walk over the tree that escapes every string it meets.
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
 use super::context::{Place, push_link};
 use super::escape;
 use super::highlight::{Highlighter, Links};
@@ -9,9 +12,24 @@ use crate::book::view::prose::{Block, Href, Inline, ListItem};
 pub(super) struct Prose<'a> {
     pub(super) place: &'a Place,
     pub(super) highlighter: &'a Highlighter,
+    /// The anchors that the page's headings have so far.
+    anchors: RefCell<BTreeSet<String>>,
 }
 
-impl Prose<'_> {
+impl<'a> Prose<'a> {
+    /// For one page.
+    pub(super) fn new(place: &'a Place, highlighter: &'a Highlighter) -> Self {
+        Self { place, highlighter, anchors: RefCell::default() }
+    }
+
+    /// `anchor`, or, where a heading of the page has it already, one of its own.
+    fn unique(&self, anchor: &str) -> String {
+        let numbered = (2_u32..).map(|number| format!("{anchor}-{number}"));
+        let mut taken = self.anchors.borrow_mut();
+        let free = std::iter::once(anchor.to_owned()).chain(numbered).find(|one| taken.insert(one.clone()));
+        free.unwrap_or_default()
+    }
+
     /// Blocks, their headings lowered so that the highest is an `<h{top}>`.
     pub(super) fn blocks(&self, blocks: &[Block], top: u8) -> String {
         let mut out = String::new();
@@ -58,7 +76,8 @@ impl Prose<'_> {
 
     fn heading(&self, out: &mut String, level: u8, anchor: &str, content: &[Inline]) {
         let level = level.clamp(1, 6);
-        let anchor = escape::text(anchor);
+        let anchor = self.unique(anchor);
+        let anchor = escape::text(&anchor);
         out.push_str(&format!("<h{level} id=\"{anchor}\"><a class=\"anchor\" href=\"#{anchor}\">"));
         self.push_inlines(out, &unlinked(content));
         out.push_str(&format!("</a></h{level}>\n"));

@@ -147,7 +147,7 @@ impl<'a> Site<'a> {
     pub(super) fn page(&self, job: &Job) -> Result<Page, Error> {
         let (path, template, title) = job.page(self.book);
         let place = Place::of(&path);
-        let prose = Prose { place: &place, highlighter: &self.highlighter };
+        let prose = Prose::new(&place, &self.highlighter);
         let mut context = Context::new();
         context.insert_value("root", Value::from(place.root()));
         context.insert_value("path", Value::from(path.as_str()));

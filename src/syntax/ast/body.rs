@@ -94,10 +94,9 @@ impl<'t> Step<'t> {
 }
 
 impl<'t> ActionAssociation<'t> {
-    /// The action's or the variable's name.
-    #[must_use]
-    pub fn name(self) -> Option<Name<'t>> {
-        child(self.0)
+    /// The action's or the variable's name, the parts of a path in their order.
+    pub fn names(self) -> impl Iterator<Item = Name<'t>> {
+        children(self.0)
     }
 
     /// `N`, `S`, `L` and so on.

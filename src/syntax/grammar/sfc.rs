@@ -40,10 +40,14 @@ pub(super) fn step(p: &mut Parser<'_>) {
     p.complete(marker, NodeKind::Step);
 }
 
-/// `Motor(N);`, `Lamp(L, T#5s, done);`, `Motor;`.
+/// `Motor(N);`, `Lamp(L, T#5s, done);`, `Motor;`, and `Axis.Home(N);` for an action of an instance.
 fn association(p: &mut Parser<'_>) {
     let marker = p.start();
     any_name(p);
+    while p.at(TokenKind::Dot) && is_name(p.nth(1)) {
+        p.bump();
+        any_name(p);
+    }
     if p.eat(TokenKind::LParen) {
         if is_name(p.current()) {
             p.bump_as(TokenKind::Ident);

@@ -101,3 +101,23 @@ fn what_a_chart_may_not_say_is_told() {
     assert!(told("INITIAL_STEP", "STEP").contains("0 initial steps"));
     assert!(told("    Lamp(N);", "    Count(N);").contains("neither an action nor a Boolean variable"));
 }
+
+/// A step may name an action of an instance, and a variable of it, by their paths; each instance's own.
+#[test]
+fn steps_drive_what_instances_have() {
+    let text = "FUNCTION_BLOCK FB_Valve\nVAR_OUTPUT Turns : INT; Open : BOOL; END_VAR\n\
+                ACTION Turn: Turns := Turns + 1; END_ACTION\nEND_FUNCTION_BLOCK\n\
+                FUNCTION_BLOCK FB_Chart\nVAR_INPUT Go : BOOL; END_VAR\n\
+                VAR_OUTPUT First : INT; Second : INT; Open : BOOL; END_VAR\nVAR One : FB_Valve; Two : FB_Valve; END_VAR\n\
+                INITIAL_STEP Start: One.Turn(N); END_STEP\nSTEP Work: Two.Turn(N); Two.Open(N); Show(N); END_STEP\n\
+                TRANSITION FROM Start TO Work := Go; END_TRANSITION\n\
+                ACTION Show: First := One.Turns; Second := Two.Turns; Open := Two.Open; END_ACTION\n\
+                END_FUNCTION_BLOCK\n";
+    let chart = program(text).expect("supported");
+    let cycles: [&[(&str, u64)]; 4] = [&[], &[("Go", 1)], &[], &[]];
+    let seen = run(&chart, &cycles, &["First", "Second", "Open"]);
+    // An action runs once more in the cycle in which its step is left.
+    assert_eq!(seen, ["0 0 0", "2 1 1", "2 2 1", "2 3 1"]);
+    let told = program(&text.replace("Two.Open(N)", "Two.Turns(N)")).expect_err("no Boolean").join("; ");
+    assert!(told.contains("`Two.Turns` is neither an action nor a Boolean variable"), "{told}");
+}

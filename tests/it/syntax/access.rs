@@ -272,7 +272,7 @@ fn charts_and_instructions() {
     let step = chart.steps().next().expect("a step");
     assert!(step.is_initial() && step.name().map(|name| name.text()) == Some("a"));
     let actions: Vec<_> =
-        step.actions().map(|a| (a.name().map(|n| n.text()), a.qualifier(), a.arguments().count())).collect();
+        step.actions().map(|a| (a.names().next().map(|n| n.text()), a.qualifier(), a.arguments().count())).collect();
     assert_eq!(actions, [(Some("x"), Some("N"), 0), (Some("y"), Some("L"), 1)]);
     let transition = chart.transitions().next().expect("a transition");
     assert_eq!(transition.from().map(|name| name.text()).collect::<Vec<_>>(), ["a", "b"]);
