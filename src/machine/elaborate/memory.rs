@@ -98,12 +98,12 @@ impl<'c> Elaborator<'c> {
         let arbitrary = self.is_arbitrary(type_);
         let mut last = None;
         for field in &layout.fields {
-            // The members of a union are one slot.
-            if last == Some(field.offset) {
+            let size = self.known_size(&field.type_)? as usize;
+            // The members of a union are one slot; a structure without members is none, and the next one begins where it does.
+            if size == 0 || last == Some(field.offset) {
                 continue;
             }
             last = Some(field.offset);
-            let size = self.known_size(&field.type_)? as usize;
             let from = field.offset as usize;
             let part = values.get(from..from + size).unwrap_or_default();
             let name = format!("{}.{}", placement.name, field.name);

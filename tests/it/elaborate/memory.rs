@@ -183,3 +183,24 @@ END_FUNCTION_BLOCK
     machine.cycle();
     assert_eq!((machine.get("x"), machine.get("DB.high")), (4, 4));
 }
+
+/// What has no members takes no memory, and nothing that stands beside it is lost.
+#[test]
+fn structures_without_members() {
+    let text = "
+TYPE
+    Nothing : STRUCT END_STRUCT;
+    Encoder : STRUCT count : ULINT := 7; status : Nothing; more : ARRAY[1..3] OF Nothing; ref : ULINT := 4; END_STRUCT;
+END_TYPE
+FUNCTION_BLOCK FB
+VAR first : Nothing; a : Encoder; b : Encoder; last : INT := 3; END_VAR
+VAR_OUTPUT d : LINT; END_VAR
+b.ref := a.count + 1;
+d := ULINT_TO_LINT(b.count) - ULINT_TO_LINT(b.ref) + last;
+END_FUNCTION_BLOCK
+";
+    let mut machine = Machine::new(text, "FB");
+    machine.cycle();
+    assert_eq!((machine.get("a.ref"), machine.get("b.ref"), machine.get("last")), (4, 8, 3));
+    assert_eq!(machine.get("d"), 2);
+}

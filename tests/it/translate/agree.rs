@@ -165,7 +165,7 @@ impl Agreement<'_> {
             .map(|index| translated.faults[index])
             .collect();
         let expected: Vec<_> = outcome.err().iter().map(|at| (at.fault, at.place)).collect();
-        prop_assert_eq!(run.get(translated.fault), expected.len() as u64);
+        prop_assert_eq!(run.get(translated.fault), expected.len() as u64, "{:?} in cycle {}", expected, cycle);
         prop_assert_eq!(&harmed, &expected, "cycle {} of {}", cycle, listing(program));
         Ok(expected.is_empty())
     }
