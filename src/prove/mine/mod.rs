@@ -17,11 +17,12 @@ mod witness;
 
 use super::engine::{Answer, Budget, Engine, Hints, Progress, Reason};
 use super::problem::Problem;
-use crate::logic::aig::{Gate, Lit, Model, Trace};
+use crate::logic::aig::{Gate, Lit, Model};
 use cases::Question;
 use houdini::Houdini;
 use predicates::Predicates;
 use sample::{Samples, Wanted};
+use witness::Lead;
 
 /// The engine.
 #[derive(Clone, Debug, Default)]
@@ -63,9 +64,10 @@ pub(crate) fn mine(mut problem: Problem, hints: &Hints, budget: &Budget) -> Resu
     let words: Vec<Vec<Lit>> = hints.words.iter().filter(|w| w.len() > 1).cloned().collect();
     let guards = guards(&problem.model, &words);
     let traces = witness::witnesses(&problem.model, &guards, budget);
-    let sampled = Samples::take(&problem.model, Wanted { nodes: &[], words: &words, guards: &guards }, &traces);
-    let Predicates { all: predicates, equal, values } = predicates::between(&mut problem, &words, &sampled);
-    let guesses = guess(&problem, (&guards, &values), &predicates, &traces);
+    let wanted = Wanted { nodes: &[], words: &words, guards: &guards };
+    let sampled = Samples::take(&problem.model, wanted, &traces, budget)?;
+    let Predicates { all: predicates, equal, values } = predicates::between(&mut problem, &words, &sampled, budget)?;
+    let guesses = guess(&problem, (&guards, &values), &predicates, (&traces, budget))?;
     let mut houdini = Houdini::new(&mut problem, guesses);
     houdini.settle(budget)?;
     let facts = houdini.surviving();
@@ -108,7 +110,12 @@ fn state_gates(model: &Model) -> Vec<Lit> {
 }
 
 /// Clauses that no random run contradicts.
-fn guess(problem: &Problem, (guards, values): (&[Lit], &[Lit]), predicates: &[Lit], traces: &[Trace]) -> Vec<Vec<Lit>> {
+fn guess(
+    problem: &Problem,
+    (guards, values): (&[Lit], &[Lit]),
+    predicates: &[Lit],
+    (traces, budget): (&[Lead], &Budget),
+) -> Result<Vec<Vec<Lit>>, Reason> {
     let model = &problem.model;
     let latches: Vec<Lit> = model.latches.iter().map(|l| l.lit).collect();
     let mut nodes = latches.clone();
@@ -116,7 +123,7 @@ fn guess(problem: &Problem, (guards, values): (&[Lit], &[Lit]), predicates: &[Li
     nodes.extend(predicates.iter().chain(values).map(|lit| Lit::of(lit.node())));
     nodes.sort_unstable();
     nodes.dedup();
-    let samples = Samples::take(model, Wanted { nodes: &nodes, ..Wanted::default() }, traces);
+    let samples = Samples::take(model, Wanted { nodes: &nodes, ..Wanted::default() }, traces, budget)?;
     let (mut guesses, leaders) = classes(&samples, &nodes);
     let mut paired: Vec<Lit> = Vec::new();
     for &lit in guards.iter().chain(predicates).chain(&latches) {
@@ -125,6 +132,7 @@ fn guess(problem: &Problem, (guards, values): (&[Lit], &[Lit]), predicates: &[Li
         }
     }
     for (i, &a) in paired.iter().enumerate() {
+        budget.exhausted().map_or(Ok(()), Err)?;
         for &b in &paired[..i] {
             for (a, b) in [(a, b), (!a, b), (a, !b), (!a, !b)] {
                 if !samples.both(&nodes, !a, !b) {
@@ -135,6 +143,7 @@ fn guess(problem: &Problem, (guards, values): (&[Lit], &[Lit]), predicates: &[Li
     }
     // Where a guard is true, what else is.
     for &guard in guards.iter().chain(values).filter(|guard| samples.both(&nodes, **guard, **guard)) {
+        budget.exhausted().map_or(Ok(()), Err)?;
         for &lit in predicates.iter().chain(&latches).filter(|lit| !(paired.contains(lit) && paired.contains(&guard))) {
             for lit in [lit, !lit].into_iter().filter(|lit| lit.node() != guard.node()) {
                 if !samples.both(&nodes, guard, !lit) {
@@ -143,7 +152,7 @@ fn guess(problem: &Problem, (guards, values): (&[Lit], &[Lit]), predicates: &[Li
             }
         }
     }
-    guesses
+    Ok(guesses)
 }
 
 /// Latches outside of words: states of an automaton, flags.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::super::engine::{Budget, Reason};
 use super::super::problem::Problem;
 use super::sample::Samples;
 use crate::logic::aig::{Aig, Lit};
@@ -10,9 +11,6 @@ use crate::logic::aig::{Aig, Lit};
 const PAIRS: usize = 300;
 /// Most bounds.
 const BOUNDS: usize = 200;
-/// A word whose values are bounded takes no more of them, in so many samples.
-const COUNTED: usize = 64;
-const MANY: usize = 2_000;
 /// Most values of a word whose values are told apart one by one, and most such values of all words.
 const FEW: usize = 8;
 const CASES: usize = 60;
@@ -106,7 +104,15 @@ pub(super) struct Predicates {
 }
 
 /// Adds the predicates to the problem's graph.
-pub(super) fn between(problem: &mut Problem, words: &[Vec<Lit>], samples: &Samples) -> Predicates {
+///
+/// # Errors
+/// If the budget ends before.
+pub(super) fn between(
+    problem: &mut Problem,
+    words: &[Vec<Lit>],
+    samples: &Samples,
+    budget: &Budget,
+) -> Result<Predicates, Reason> {
     let mut predicates = Vec::new();
     let (mut same, mut values) = (Vec::new(), Vec::new());
     let aig = &mut problem.model.aig;
@@ -118,7 +124,7 @@ pub(super) fn between(problem: &mut Problem, words: &[Vec<Lit>], samples: &Sampl
             same.push((equal(aig, x, y), x.clone(), y.clone()));
         }
     }
-    for (x, y, line) in lines(words, samples, &pairs) {
+    for (x, y, line) in lines(words, samples, &pairs, budget)? {
         let line = linear(aig, &words[x], line, words[y].len());
         predicates.push(equal(aig, &line, &words[y]));
     }
@@ -137,7 +143,7 @@ pub(super) fn between(problem: &mut Problem, words: &[Vec<Lit>], samples: &Sampl
     let mut seen = BTreeSet::new();
     let mut plain: Vec<Lit> = predicates.iter().map(|p| Lit::of(p.node())).collect();
     plain.retain(|p| p.node() != 0 && seen.insert(*p));
-    Predicates { all: plain, equal: same, values }
+    Ok(Predicates { all: plain, equal: same, values })
 }
 
 /// Words that take few values, more than one, and which.
@@ -155,10 +161,14 @@ fn kept(samples: &Samples) -> Vec<Vec<usize>> {
     std::iter::once(all).chain(guarded).collect()
 }
 
+/// Two words and the factor and offset between them.
+type Lines = BTreeSet<(usize, usize, (u64, u64))>;
+
 /// Linear relations between words, in general or under a guard.
-fn lines(words: &[Vec<Lit>], samples: &Samples, pairs: &[(usize, usize)]) -> BTreeSet<(usize, usize, (u64, u64))> {
+fn lines(words: &[Vec<Lit>], samples: &Samples, pairs: &[(usize, usize)], budget: &Budget) -> Result<Lines, Reason> {
     let mut found = BTreeSet::new();
     for places in kept(samples) {
+        budget.exhausted().map_or(Ok(()), Err)?;
         for &(i, j) in pairs {
             for (x, y) in [(i, j), (j, i)] {
                 let both = places.iter().map(|&at| (samples.words[x][at], samples.words[y][at]));
@@ -169,7 +179,7 @@ fn lines(words: &[Vec<Lit>], samples: &Samples, pairs: &[(usize, usize)]) -> BTr
             }
         }
     }
-    found
+    Ok(found)
 }
 
 /// The least and the greatest value of words, in general or under a guard, where these are few.
@@ -178,10 +188,11 @@ fn bounds(words: &[Vec<Lit>], samples: &Samples) -> BTreeSet<(usize, u64, u64)> 
     for places in kept(samples) {
         for word in 0..words.len() {
             let values = places.iter().map(|&at| samples.words[word][at]);
-            let distinct: BTreeSet<u64> = values.take(MANY).collect();
+            // What counts takes every value between; of what does not, bounds say little.
+            let distinct: BTreeSet<u64> = values.collect();
             if let (Some(&least), Some(&most)) = (distinct.first(), distinct.last())
                 && least < most
-                && distinct.len() <= COUNTED
+                && (distinct.len() <= FEW || distinct.len() as u64 == (most - least).saturating_add(1))
                 && found.len() < BOUNDS
             {
                 found.insert((word, least, most));

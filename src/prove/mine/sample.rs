@@ -1,7 +1,9 @@
 //! Random runs, and what nodes and words were in them.
 
+use super::super::engine::{Budget, Reason};
 use super::super::simulate::{Random, Simulator};
-use crate::logic::aig::{Lit, Model, Trace};
+use super::witness::Lead;
+use crate::logic::aig::{Lit, Model};
 
 /// Values in the cycles that were looked at.
 pub(super) struct Samples {
@@ -27,15 +29,15 @@ pub(super) struct Wanted<'a> {
 const EPISODES: [(usize, u32); 10] =
     [(12, 1), (12, 3), (40, 1), (60, 4), (120, 5), (300, 6), (300, 4), (600, 7), (1200, 8), (1200, 10)];
 
-/// Cycles behind the end of a run that is followed: its last inputs stay, so that what counts goes up to its bound.
-const BEYOND: usize = 1_100;
-
 /// Runs whose words are kept.
 const LANES: u32 = 8;
 
 impl Samples {
-    /// Of random runs, and of runs like `traces`.
-    pub(super) fn take(model: &Model, wanted: Wanted<'_>, traces: &[Trace]) -> Self {
+    /// Of random runs, and of runs like those that lead somewhere.
+    ///
+    /// # Errors
+    /// If the budget ends before.
+    pub(super) fn take(model: &Model, wanted: Wanted<'_>, leads: &[Lead], budget: &Budget) -> Result<Self, Reason> {
         let mut samples = Self {
             nodes: vec![Vec::new(); wanted.nodes.len()],
             valid: Vec::new(),
@@ -44,15 +46,22 @@ impl Samples {
         };
         let mut random = Random::new(1);
         for (cycles, calm) in EPISODES {
-            samples.episode(model, wanted, &mut random, cycles, calm);
+            samples.episode(model, wanted, &mut random, (cycles, calm), budget);
         }
-        for trace in traces {
-            samples.follow(model, wanted, &mut random, trace);
+        for lead in leads {
+            samples.follow(model, wanted, &mut random, lead, budget);
         }
-        samples
+        budget.exhausted().map_or(Ok(samples), Err)
     }
 
-    fn episode(&mut self, model: &Model, wanted: Wanted<'_>, random: &mut Random, cycles: usize, calm: u32) {
+    fn episode(
+        &mut self,
+        model: &Model,
+        wanted: Wanted<'_>,
+        random: &mut Random,
+        (cycles, calm): (usize, u32),
+        budget: &Budget,
+    ) {
         let mut run = Simulator::new(model);
         let first: Vec<u64> = model
             .latches
@@ -74,14 +83,21 @@ impl Samples {
             if cycle < 64 || cycle % 8 == 0 {
                 self.record(&run, wanted, alive);
             }
-            if alive == 0 {
+            if alive == 0 || budget.exhausted().is_some() {
                 break;
             }
         }
     }
 
     /// Runs like `trace`, and a little further: one is the same, in the others some values differ.
-    fn follow(&mut self, model: &Model, wanted: Wanted<'_>, random: &mut Random, trace: &Trace) {
+    fn follow(
+        &mut self,
+        model: &Model,
+        wanted: Wanted<'_>,
+        random: &mut Random,
+        (trace, beyond): &Lead,
+        budget: &Budget,
+    ) {
         let mut vary = |value: bool| {
             let rare = (0..4).fold(!1, |bits, _| bits & random.next());
             rare ^ if value { u64::MAX } else { 0 }
@@ -105,7 +121,7 @@ impl Samples {
         run.start(|index| first[index]);
         let mut alive = u64::MAX;
         let last = trace.inputs.last().into_iter().cycle();
-        for (cycle, inputs) in trace.inputs.iter().chain(last).take(trace.inputs.len() + BEYOND).enumerate() {
+        for (cycle, inputs) in trace.inputs.iter().chain(last).take(trace.inputs.len() + *beyond).enumerate() {
             if cycle > 0 {
                 run.step();
             }
@@ -115,7 +131,7 @@ impl Samples {
             if wanted.nodes.is_empty() || cycle < 64 || cycle % 8 == 0 {
                 self.record(&run, wanted, alive);
             }
-            if alive & 1 == 0 {
+            if alive & 1 == 0 || budget.exhausted().is_some() {
                 break;
             }
         }
