@@ -30,6 +30,12 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
     let tables = tables::attach(&tree, &catalogue, &names, &docs, &settings.tables);
     findings.append(&mut tree.findings);
     findings.extend(tables.findings);
+    let (asked, missing) = asked(fs, settings);
+    for (name, path, why) in missing {
+        let file = tree.files.add(&path, "", crate::text::Encoding::Utf8);
+        let message = format!("the stub of `{name}` cannot be read: {why}");
+        findings.push(Finding::of_file(&crate::source::codes::UNREADABLE_PATH, file, message));
+    }
 
     events(Event::Stage { name: "audit", total: 0 });
     let context = Context { catalogue: &catalogue, docs: &docs, tables: &tables.tables, answers: &[] };
@@ -54,7 +60,7 @@ pub fn read(fs: &dyn FileSystem, name: &str, settings: &Settings, events: &Event
         skipped,
         other_files,
         answers: Vec::new(),
-        asked: asked(fs, settings),
+        asked,
         narratives: overrides::narratives(fs, &settings.manual),
         overrides: overrides::read(fs),
     }
@@ -79,25 +85,32 @@ pub fn know(project: &mut Project, settings: &Settings, answers: Vec<crate::evid
     project.findings = in_order(findings, settings);
 }
 
-/// What is asked of proofs; a stub whose file cannot be read is left out, and what needs it is *unsupported*.
-fn asked(fs: &dyn FileSystem, settings: &Settings) -> Asked {
+/// A block, the path of its stub, and why that cannot be read.
+type MissingStub = (String, String, String);
+
+/// What is asked of proofs. A stub whose file cannot be read is left out and told, and what needs it is *unsupported*.
+fn asked(fs: &dyn FileSystem, settings: &Settings) -> (Asked, Vec<MissingStub>) {
     let text = |path: &str| {
-        let bytes = fs.read(path, settings.source.max_file_size).ok()?;
-        String::from_utf8(bytes).ok()
+        let bytes = fs.read(path, settings.source.max_file_size).map_err(|error| error.to_string())?;
+        String::from_utf8(bytes).map_err(|_| "it is not encoded in UTF-8".to_owned())
     };
-    let stub = |(name, value): (&String, &String)| {
-        let text = if value == "arbitrary" { value.clone() } else { text(value)? };
-        Some((name.clone(), super::stub(name, &text)))
-    };
+    let (mut stubs, mut missing) = (Vec::new(), Vec::new());
+    for (name, value) in &settings.verify.stubs {
+        match if value == "arbitrary" { Ok(value.clone()) } else { text(value) } {
+            Ok(text) => stubs.push((name.clone(), super::stub(name, &text))),
+            Err(why) => missing.push((name.clone(), value.clone(), why)),
+        }
+    }
     let constants = settings.tables.all.constants.iter();
-    Asked {
+    let asked = Asked {
         cycle: settings.tables.all.cycle,
         constants: constants.map(|(name, value)| (name.clone(), format!("{value:?}"))).collect(),
         strict: settings.verify.options.strict,
         loop_limit: settings.verify.loop_limit,
         fixed: settings.verify.fixed,
-        stubs: settings.verify.stubs.iter().filter_map(stub).collect(),
-    }
+        stubs: stubs.into_iter().collect(),
+    };
+    (asked, missing)
 }
 
 fn walk(fs: &dyn FileSystem, settings: &Settings, events: &Events<'_>) -> Tree {

@@ -160,3 +160,14 @@ fn a_fixed_point_reading_is_an_assumption_of_the_verdict() {
     assert_eq!(broken["tables"][0]["run"]["end"]["rows"][0]["cells"][0]["seen"], "200.01", "{broken:#}");
     assert_eq!(verify(&["--fixed", "9,16"], folder.path()).0, 2);
 }
+
+#[test]
+fn a_stub_that_cannot_be_read_is_told() {
+    let fs = rungbook::source::Memory::new().with("a.st", "FUNCTION_BLOCK FB_A\nEND_FUNCTION_BLOCK\n");
+    let asked = "[verify]\nstubs = { FB_Vendor = \"stubs/none.st\", FB_Other = \"arbitrary\" }\n";
+    let project = rungbook::pipeline::read(&fs, "tree", &crate::support::settings(asked), &|_| {});
+    let told = project.findings.iter().find(|finding| finding.code.name == "unreadable-path").expect("it is told");
+    assert!(told.message.starts_with("the stub of `FB_Vendor` cannot be read"), "{}", told.message);
+    assert_eq!(project.files.get(told.place.file).path, "stubs/none.st");
+    assert_eq!(project.asked.stubs.len(), 1);
+}
