@@ -17,12 +17,11 @@ mod witness;
 
 use super::engine::{Answer, Budget, Engine, Hints, Progress, Reason};
 use super::problem::Problem;
-use crate::logic::aig::{Gate, Lit, Model};
+use crate::logic::aig::{Gate, Lit, Model, Trace};
 use cases::Question;
 use houdini::Houdini;
 use predicates::Predicates;
 use sample::{Samples, Wanted};
-use witness::Lead;
 
 /// The engine.
 #[derive(Clone, Debug, Default)]
@@ -114,7 +113,7 @@ fn guess(
     problem: &Problem,
     (guards, values): (&[Lit], &[Lit]),
     predicates: &[Lit],
-    (traces, budget): (&[Lead], &Budget),
+    (traces, budget): (&[Trace], &Budget),
 ) -> Result<Vec<Vec<Lit>>, Reason> {
     let model = &problem.model;
     let latches: Vec<Lit> = model.latches.iter().map(|l| l.lit).collect();

@@ -2,8 +2,7 @@
 
 use super::super::engine::{Budget, Reason};
 use super::super::simulate::{Random, Simulator};
-use super::witness::Lead;
-use crate::logic::aig::{Lit, Model};
+use crate::logic::aig::{Lit, Model, Trace};
 
 /// Values in the cycles that were looked at.
 pub(super) struct Samples {
@@ -29,15 +28,18 @@ pub(super) struct Wanted<'a> {
 const EPISODES: [(usize, u32); 10] =
     [(12, 1), (12, 3), (40, 1), (60, 4), (120, 5), (300, 6), (300, 4), (600, 7), (1200, 8), (1200, 10)];
 
+/// Cycles behind the end of a run that is followed: its last inputs stay, so that what counts goes up to its bound.
+const BEYOND: usize = 1_100;
+
 /// Runs whose words are kept.
 const LANES: u32 = 8;
 
 impl Samples {
-    /// Of random runs, and of runs like those that lead somewhere.
+    /// Of random runs, and of runs like `traces`.
     ///
     /// # Errors
     /// If the budget ends before.
-    pub(super) fn take(model: &Model, wanted: Wanted<'_>, leads: &[Lead], budget: &Budget) -> Result<Self, Reason> {
+    pub(super) fn take(model: &Model, wanted: Wanted<'_>, traces: &[Trace], budget: &Budget) -> Result<Self, Reason> {
         let mut samples = Self {
             nodes: vec![Vec::new(); wanted.nodes.len()],
             valid: Vec::new(),
@@ -48,8 +50,8 @@ impl Samples {
         for (cycles, calm) in EPISODES {
             samples.episode(model, wanted, &mut random, (cycles, calm), budget);
         }
-        for lead in leads {
-            samples.follow(model, wanted, &mut random, lead, budget);
+        for trace in traces {
+            samples.follow(model, wanted, &mut random, trace, budget);
         }
         budget.exhausted().map_or(Ok(samples), Err)
     }
@@ -90,14 +92,7 @@ impl Samples {
     }
 
     /// Runs like `trace`, and a little further: one is the same, in the others some values differ.
-    fn follow(
-        &mut self,
-        model: &Model,
-        wanted: Wanted<'_>,
-        random: &mut Random,
-        (trace, beyond): &Lead,
-        budget: &Budget,
-    ) {
+    fn follow(&mut self, model: &Model, wanted: Wanted<'_>, random: &mut Random, trace: &Trace, budget: &Budget) {
         let mut vary = |value: bool| {
             let rare = (0..4).fold(!1, |bits, _| bits & random.next());
             rare ^ if value { u64::MAX } else { 0 }
@@ -121,7 +116,7 @@ impl Samples {
         run.start(|index| first[index]);
         let mut alive = u64::MAX;
         let last = trace.inputs.last().into_iter().cycle();
-        for (cycle, inputs) in trace.inputs.iter().chain(last).take(trace.inputs.len() + *beyond).enumerate() {
+        for (cycle, inputs) in trace.inputs.iter().chain(last).take(trace.inputs.len() + BEYOND).enumerate() {
             if cycle > 0 {
                 run.step();
             }

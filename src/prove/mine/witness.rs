@@ -26,14 +26,8 @@ struct Search<'m> {
     constrained: usize,
 }
 
-/// A run, and for how many cycles more its last inputs are worth a look.
-pub(super) type Lead = (Trace, usize);
-
-/// Behind the end of a run, and of one whose target stays true: what counts goes up to its bound there.
-const BEYOND: [usize; 2] = [4, 1_100];
-
 /// Runs that end with one of `targets` true.
-pub(super) fn witnesses(model: &Model, targets: &[Lit], budget: &Budget) -> Vec<Lead> {
+pub(super) fn witnesses(model: &Model, targets: &[Lit], budget: &Budget) -> Vec<Trace> {
     let unrolled = Unrolled::new(model, true);
     let mut search = Search { model, unrolled, random: Random::new(3), left: TICKS, constrained: 0 };
     let (mut open, mut found) = (targets.to_vec(), Vec::new());
@@ -67,7 +61,7 @@ impl Search<'_> {
     }
 
     /// A run in which `target` stays true for some cycles behind this one.
-    fn staying(&mut self, target: Lit, depth: usize, budget: &Budget) -> Option<Lead> {
+    fn staying(&mut self, target: Lit, depth: usize, budget: &Budget) -> Option<Trace> {
         for stay in STAYS {
             self.constrain(depth + stay);
             let mut goal = Lit::TRUE;
@@ -76,14 +70,14 @@ impl Search<'_> {
                 goal = self.unrolled.graph.aig.and(goal, now);
             }
             if goal != Lit::FALSE && matches!(self.unrolled.ask(goal, &mut self.left, budget), Reply::Yes) {
-                return Some((self.trace(depth + stay), BEYOND[1]));
+                return Some(self.trace(depth + stay));
             }
         }
         None
     }
 
     /// Runs in which `target` is true in the cycle; `None` where the work is used up.
-    fn reach(&mut self, target: Lit, depth: usize, budget: &Budget) -> Option<Vec<Lead>> {
+    fn reach(&mut self, target: Lit, depth: usize, budget: &Budget) -> Option<Vec<Trace>> {
         let goal = self.unrolled.graph.at(target, depth);
         let mut traces = Vec::new();
         for variant in 0..=VARIANTS {
@@ -92,7 +86,7 @@ impl Search<'_> {
                 break;
             }
             match self.unrolled.ask(wish, &mut self.left, budget) {
-                Reply::Yes => traces.push((self.trace(depth), BEYOND[0])),
+                Reply::Yes => traces.push(self.trace(depth)),
                 Reply::No if variant == 0 => break,
                 Reply::No => {}
                 Reply::Stopped(_) | Reply::Pause if variant == 0 => return None,
