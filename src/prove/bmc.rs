@@ -82,6 +82,17 @@ impl Unrolled {
         }
     }
 
+    /// The run that was found, up to the cycle `last`.
+    pub(crate) fn trace(&mut self, model: &Model, last: usize) -> Trace {
+        let mut read = |lit: Lit, cycle: usize| {
+            let at = self.graph.at(lit, cycle);
+            self.value(at)
+        };
+        let latches = model.latches.iter().map(|latch| read(latch.lit, 0)).collect();
+        let inputs = (0..=last).map(|cycle| model.inputs.iter().map(|&input| read(input, cycle)).collect()).collect();
+        Trace { latches, inputs }
+    }
+
     /// The value of a literal in the run that was found; false where it did not matter.
     pub(crate) fn value(&self, lit: Lit) -> bool {
         if lit.node() == 0 {
@@ -102,17 +113,6 @@ impl BmcSearch {
     pub(crate) fn new(problem: Problem) -> Self {
         Self { unrolled: Unrolled::new(&problem.model, true), depth: 0, problem }
     }
-
-    fn trace(&mut self) -> Trace {
-        let model = &self.problem.model;
-        let mut read = |lit: Lit, cycle: usize| {
-            let at = self.unrolled.graph.at(lit, cycle);
-            self.unrolled.value(at)
-        };
-        let latches = model.latches.iter().map(|l| read(l.lit, 0)).collect();
-        let inputs = (0..=self.depth).map(|c| model.inputs.iter().map(|&i| read(i, c)).collect()).collect();
-        Trace { latches, inputs }
-    }
 }
 
 impl Search for BmcSearch {
@@ -130,7 +130,9 @@ impl Search for BmcSearch {
             left = left.saturating_sub(QUESTION / 10);
             if bad != Lit::FALSE {
                 match self.unrolled.ask(bad, &mut left, budget) {
-                    Reply::Yes => return Some(Answer::Violated(self.trace())),
+                    Reply::Yes => {
+                        return Some(Answer::Violated(self.unrolled.trace(&self.problem.model, self.depth)));
+                    }
                     Reply::No => self.unrolled.require(&[!bad]),
                     Reply::Stopped(reason) => return Some(bounded(self.depth, reason)),
                     Reply::Pause => return None,

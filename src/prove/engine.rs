@@ -158,6 +158,11 @@ impl Budget {
         }
     }
 
+    /// Goes on, or says why not.
+    pub(crate) fn check(&self) -> Result<(), Reason> {
+        self.exhausted().map_or(Ok(()), Err)
+    }
+
     /// Why to stop when holding so many bytes.
     #[must_use]
     pub fn exhausted_with(&self, bytes: usize) -> Option<Reason> {

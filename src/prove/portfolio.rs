@@ -78,6 +78,17 @@ fn enrich(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'
     }
 }
 
+/// A search, its engine, and the work that it may do.
+type Turn<'a> = (&'a mut dyn Search, &'static str, u64);
+
+/// One turn of each; the first answer that settles the question.
+fn round(turns: &mut [Turn<'_>], budget: &Budget, listener: Listener<'_>) -> Option<Outcome> {
+    turns.iter_mut().find_map(|(search, engine, work)| {
+        let answer = search.advance(*work, budget, listener).filter(Answer::is_final)?;
+        Some(Outcome { answer, engine })
+    })
+}
+
 fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'_>) -> Outcome {
     let mut look = BmcSearch::new(problem.clone());
     if let Some(answer) = look.advance(LOOK, budget, listener) {
@@ -87,11 +98,8 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
     drop(look);
     let mut plain = Ic3Search::new(problem.clone());
     let mut short = InductionSearch::new(problem.clone());
-    for (search, engine, work) in [(&mut short as &mut dyn Search, "induction", SHORT), (&mut plain, "ic3", TURN)] {
-        match search.advance(work, budget, listener) {
-            Some(answer) if answer.is_final() => return Outcome { answer, engine },
-            _ => {}
-        }
+    if let Some(outcome) = round(&mut [(&mut short, "induction", SHORT), (&mut plain, "ic3", TURN)], budget, listener) {
+        return outcome;
     }
     drop(short);
     let problem = match enrich(problem, hints, budget, listener) {
@@ -102,13 +110,10 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
     let mut induction = InductionSearch::new(problem);
     let mut turn = TURN;
     loop {
-        let searches: [(&mut dyn Search, &'static str); 3] =
-            [(&mut ic3, "ic3"), (&mut induction, "induction"), (&mut plain, "ic3")];
-        for (search, engine) in searches {
-            match search.advance(turn, budget, listener) {
-                Some(answer) if answer.is_final() => return Outcome { answer, engine },
-                _ => {}
-            }
+        let turns: &mut [Turn<'_>] =
+            &mut [(&mut ic3, "ic3", turn), (&mut induction, "induction", turn), (&mut plain, "ic3", turn)];
+        if let Some(outcome) = round(turns, budget, listener) {
+            return outcome;
         }
         let deepest = safe.max(ic3.depth()).max(induction.depth()).max(plain.depth());
         if let Some(reason) = budget.exhausted() {

@@ -5,8 +5,8 @@
 //! shown to be equal again by hashing and SAT; a counterexample splits classes, and all is shown again. Latches without a
 //! first value take no part.
 
-use super::reduce::{LatchClause, Reduced, cone, identity, rebuild, through};
-use super::{Aig, Gate, Lit, Model, Random, word};
+use super::reduce::{LatchClause, Reduced, cone, identity, rebuild, substituted, through};
+use super::{Gate, Lit, Model, Random, word};
 use crate::logic::hash::FastMap;
 use crate::logic::sat::cadi::Cadical;
 use crate::logic::sat::encode::Encoder;
@@ -128,8 +128,7 @@ fn grouped(model: &Model, mut key: impl FnMut(usize) -> Option<(usize, Vec<u64>)
 /// ones. `None` where `stop` came first.
 fn refine(model: &Model, classes: &Classes, stop: &Stop) -> Option<Classes> {
     let substitute = substitution(model, classes);
-    let mut aig = Aig::default();
-    let reduced = substituted(model, &substitute, &mut aig);
+    let (mut aig, reduced) = substituted(model, &substitute);
     let (mut solver, mut encoder) = (Cadical::default(), Encoder::default());
     solver.set_stop(stop.clone());
     solver.set_conflicts(Some(CONFLICTS));
@@ -163,20 +162,6 @@ fn refine(model: &Model, classes: &Classes, stop: &Stop) -> Option<Classes> {
         }
     }
     Some(grouped(model, |index| classes[index].map(|class| (class, splits[index].clone()))))
-}
-
-/// The graph with the latches of one class made one; what each old node is there.
-fn substituted(model: &Model, substitute: &[Lit], aig: &mut Aig) -> Vec<Lit> {
-    let mut map = vec![Lit::FALSE; model.aig.len()];
-    for node in (1_u32..).take(model.aig.len() - 1) {
-        let own = substitute[node as usize];
-        map[node as usize] = match model.aig.gate(node) {
-            _ if own != Lit::of(node) => through(&map, own),
-            Gate::And(a, b) => aig.and(through(&map, a), through(&map, b)),
-            _ => aig.leaf(),
-        };
-    }
-    map
 }
 
 /// The solver's model in the old graph.

@@ -11,6 +11,7 @@ mod tests;
 pub use constants::constants;
 pub use correspond::correspond;
 pub use reduce::{LatchClause, Reduced, cone};
+pub(crate) use reduce::{identity, substituted, through};
 pub use simulate::{BitSnapshot, Random, Trace, word};
 pub use sweep::sweep;
 

@@ -104,7 +104,7 @@ fn first(model: &Model) -> Vec<bool> {
 }
 
 /// A literal through a map of nodes.
-pub(super) fn through(map: &[Lit], lit: Lit) -> Lit {
+pub(crate) fn through(map: &[Lit], lit: Lit) -> Lit {
     map[lit.node() as usize].invert_if(lit.inverted())
 }
 
@@ -132,8 +132,24 @@ pub(super) fn needed(model: &Model, substitute: &[Lit]) -> Vec<bool> {
     needed
 }
 
+/// The graph in which each node is what `substitute` says, a literal of a smaller node or the node itself; and what each
+/// old node is there.
+pub(crate) fn substituted(model: &Model, substitute: &[Lit]) -> (Aig, Vec<Lit>) {
+    let mut aig = Aig::default();
+    let mut map = vec![Lit::FALSE; model.aig.len()];
+    for node in (1_u32..).take(model.aig.len() - 1) {
+        let own = substitute[node as usize];
+        map[node as usize] = match model.aig.gate(node) {
+            _ if own != Lit::of(node) => through(&map, own),
+            Gate::And(a, b) => aig.and(through(&map, a), through(&map, b)),
+            _ => aig.leaf(),
+        };
+    }
+    (aig, map)
+}
+
 /// Each node for itself.
-pub(super) fn identity(model: &Model) -> Vec<Lit> {
+pub(crate) fn identity(model: &Model) -> Vec<Lit> {
     (0_u32..).map(Lit::of).take(model.aig.len()).collect()
 }
 

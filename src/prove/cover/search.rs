@@ -11,7 +11,7 @@ use super::super::reduce::Reduced;
 use super::frontier::Frontier;
 use super::walk::Walker;
 use super::{Effort, Fate, Question, Reached};
-use crate::logic::aig::{Lit, Model, Trace};
+use crate::logic::aig::{Lit, Model};
 use crate::logic::blast::{Blasted, blast};
 use crate::logic::certificate::Certificate;
 use crate::logic::system::{Labelled, System};
@@ -78,7 +78,7 @@ fn unrolled(
             }
             match unrolled.ask(any, &mut left, budget) {
                 Reply::Yes => {
-                    let trace = trace(model, &mut unrolled, depth);
+                    let trace = unrolled.trace(model, depth);
                     let before = frontier.open().len();
                     walker.follow(&trace, BEHIND, frontier);
                     if frontier.open().len() == before {
@@ -91,16 +91,6 @@ fn unrolled(
         }
     }
     effort.depth
-}
-
-fn trace(model: &Model, unrolled: &mut Unrolled, depth: usize) -> Trace {
-    let mut read = |lit: Lit, cycle: usize| {
-        let at = unrolled.graph.at(lit, cycle);
-        unrolled.value(at)
-    };
-    let latches = model.latches.iter().map(|latch| read(latch.lit, 0)).collect();
-    let inputs = (0..=depth).map(|cycle| model.inputs.iter().map(|input| read(*input, cycle)).collect()).collect();
-    Trace { latches, inputs }
 }
 
 /// Tries to prove of each target that is left that no run reaches it.

@@ -87,7 +87,7 @@ impl Houdini {
         let start = asker.solver.ticks;
         let mut dropped = false;
         for block in (0..self.clauses.len()).collect::<Vec<usize>>().chunks(BLOCK) {
-            check(0, budget)?;
+            budget.check()?;
             dropped |= self.check_block(block, &mut asker);
             if self.work + (asker.solver.ticks - start) > ENOUGH {
                 return Err(Reason::Incomplete);
@@ -162,7 +162,7 @@ impl Houdini {
             match asker.ask(&self.encoding, &[self.bad], None, work) {
                 Some(true) => return Ok(None),
                 Some(false) => return Ok(Some(self.surviving())),
-                None => budget.exhausted().map_or(Ok(()), Err)?,
+                None => budget.check()?,
             }
             work *= 2;
             if work > ENOUGH {
@@ -178,5 +178,5 @@ impl Houdini {
 
 /// Looks at the clock every few guesses.
 fn check(index: usize, budget: &Budget) -> Result<(), Reason> {
-    if index.is_multiple_of(64) { budget.exhausted().map_or(Ok(()), Err) } else { Ok(()) }
+    if index.is_multiple_of(64) { budget.check() } else { Ok(()) }
 }

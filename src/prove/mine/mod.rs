@@ -119,7 +119,6 @@ fn guess(
     let latches: Vec<Lit> = model.latches.iter().map(|l| l.lit).collect();
     let mut nodes = latches.clone();
     nodes.extend(state_gates(model));
-    nodes.extend(predicates.iter().chain(values).map(|lit| Lit::of(lit.node())));
     nodes.sort_unstable();
     nodes.dedup();
     let samples = Samples::take(model, Wanted { nodes: &nodes, ..Wanted::default() }, traces, budget)?;
@@ -131,7 +130,7 @@ fn guess(
         }
     }
     for (i, &a) in paired.iter().enumerate() {
-        budget.exhausted().map_or(Ok(()), Err)?;
+        budget.check()?;
         for &b in &paired[..i] {
             for (a, b) in [(a, b), (!a, b), (a, !b), (!a, !b)] {
                 if !samples.both(&nodes, !a, !b) {
@@ -142,7 +141,7 @@ fn guess(
     }
     // Where a guard is true, what else is.
     for &guard in guards.iter().chain(values).filter(|guard| samples.both(&nodes, **guard, **guard)) {
-        budget.exhausted().map_or(Ok(()), Err)?;
+        budget.check()?;
         for &lit in predicates.iter().chain(&latches).filter(|lit| !(paired.contains(lit) && paired.contains(&guard))) {
             for lit in [lit, !lit].into_iter().filter(|lit| lit.node() != guard.node()) {
                 if !samples.both(&nodes, guard, !lit) {

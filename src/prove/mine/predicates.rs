@@ -93,7 +93,6 @@ fn relation(samples: impl Iterator<Item = (u64, u64)> + Clone, width: usize) -> 
 }
 
 /// Predicates over words.
-#[derive(Default)]
 pub(super) struct Predicates {
     /// All of them, each once.
     pub(super) all: Vec<Lit>,
@@ -120,8 +119,9 @@ pub(super) fn between(
     for &(i, j) in &pairs {
         let (x, y) = (&words[j], &words[i]);
         if x.len() == y.len() {
-            predicates.extend(orders(aig, x, y));
-            same.push((equal(aig, x, y), x.clone(), y.clone()));
+            let [less, greater, is_equal, below, above] = orders(aig, x, y);
+            predicates.extend([less, greater, is_equal, below, above]);
+            same.push((is_equal, x.clone(), y.clone()));
         }
     }
     for (x, y, line) in lines(words, samples, &pairs, budget)? {
@@ -168,7 +168,7 @@ type Lines = BTreeSet<(usize, usize, (u64, u64))>;
 fn lines(words: &[Vec<Lit>], samples: &Samples, pairs: &[(usize, usize)], budget: &Budget) -> Result<Lines, Reason> {
     let mut found = BTreeSet::new();
     for places in kept(samples) {
-        budget.exhausted().map_or(Ok(()), Err)?;
+        budget.check()?;
         for &(i, j) in pairs {
             for (x, y) in [(i, j), (j, i)] {
                 let both = places.iter().map(|&at| (samples.words[x][at], samples.words[y][at]));
@@ -203,7 +203,7 @@ fn bounds(words: &[Vec<Lit>], samples: &Samples) -> BTreeSet<(usize, u64, u64)> 
 }
 
 /// Less, greater and equal, unsigned and signed.
-fn orders(aig: &mut Aig, x: &[Lit], y: &[Lit]) -> Vec<Lit> {
+fn orders(aig: &mut Aig, x: &[Lit], y: &[Lit]) -> [Lit; 5] {
     let flip = |w: &[Lit]| {
         let mut w = w.to_vec();
         if let Some(sign) = w.last_mut() {
@@ -212,7 +212,7 @@ fn orders(aig: &mut Aig, x: &[Lit], y: &[Lit]) -> Vec<Lit> {
         w
     };
     let (sx, sy) = (flip(x), flip(y));
-    vec![
+    [
         carries(aig, &sx, &sy, Lit::FALSE),
         carries(aig, &sy, &sx, Lit::FALSE),
         equal(aig, x, y),

@@ -53,7 +53,7 @@ impl Samples {
         for trace in traces {
             samples.follow(model, wanted, &mut random, trace, budget);
         }
-        budget.exhausted().map_or(Ok(samples), Err)
+        budget.check().map(|()| samples)
     }
 
     fn episode(

@@ -70,7 +70,7 @@ impl Search<'_> {
                 goal = self.unrolled.graph.aig.and(goal, now);
             }
             if goal != Lit::FALSE && matches!(self.unrolled.ask(goal, &mut self.left, budget), Reply::Yes) {
-                return Some(self.trace(depth + stay));
+                return Some(self.unrolled.trace(self.model, depth + stay));
             }
         }
         None
@@ -86,7 +86,7 @@ impl Search<'_> {
                 break;
             }
             match self.unrolled.ask(wish, &mut self.left, budget) {
-                Reply::Yes => traces.push(self.trace(depth)),
+                Reply::Yes => traces.push(self.unrolled.trace(self.model, depth)),
                 Reply::No if variant == 0 => break,
                 Reply::No => {}
                 Reply::Stopped(_) | Reply::Pause if variant == 0 => return None,
@@ -107,16 +107,5 @@ impl Search<'_> {
             let at = self.unrolled.graph.at(lit, 0);
             if chosen { self.unrolled.graph.aig.and(wish, at.invert_if(!value)) } else { wish }
         })
-    }
-
-    fn trace(&mut self, depth: usize) -> Trace {
-        let model = self.model;
-        let mut read = |lit: Lit, cycle: usize| {
-            let at = self.unrolled.graph.at(lit, cycle);
-            self.unrolled.value(at)
-        };
-        let latches = model.latches.iter().map(|latch| read(latch.lit, 0)).collect();
-        let inputs = (0..=depth).map(|cycle| model.inputs.iter().map(|&input| read(input, cycle)).collect()).collect();
-        Trace { latches, inputs }
     }
 }

@@ -192,16 +192,19 @@ fn compare(program: &Program, choices: &mut Choices<'_>) -> Result<(), TestCaseE
     Ok(())
 }
 
-#[test]
-fn programs_mean_the_same_interpreted_and_translated() {
-    let config = ProptestConfig {
+fn config() -> ProptestConfig {
+    ProptestConfig {
         cases: cases(300),
         max_shrink_iters: 20_000,
         max_shrink_time: SHRINKING,
         failure_persistence: None,
         ..Default::default()
-    };
-    let result = TestRunner::new(config).run(&prop::collection::vec(any::<u32>(), 0..4000), |stream| {
+    }
+}
+
+#[test]
+fn programs_mean_the_same_interpreted_and_translated() {
+    let result = TestRunner::new(config()).run(&prop::collection::vec(any::<u32>(), 0..4000), |stream| {
         let mut choices = Choices::new(&stream);
         let program = program(&mut choices);
         compare(&program, &mut choices)
@@ -217,14 +220,7 @@ fn programs_mean_the_same_interpreted_and_translated() {
 
 #[test]
 fn programs_mean_the_same_in_fixed_point() {
-    let config = ProptestConfig {
-        cases: cases(300),
-        max_shrink_iters: 20_000,
-        max_shrink_time: SHRINKING,
-        failure_persistence: None,
-        ..Default::default()
-    };
-    let result = TestRunner::new(config).run(&prop::collection::vec(any::<u32>(), 0..4000), |stream| {
+    let result = TestRunner::new(config()).run(&prop::collection::vec(any::<u32>(), 0..4000), |stream| {
         let mut choices = Choices::new(&stream);
         let mut program = program(&mut choices);
         let (digits, width) = choices.one(&[(0, 8), (1, 12), (2, 16), (3, 32), (9, 32), (4, 24)]);
