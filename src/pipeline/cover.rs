@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::Project;
-use super::verify::Ready;
+use super::ready::Ready;
 use crate::evidence::coverage::{Coverage, Fate, FreeCells, Item, Kind, Stretch, Witness};
 use crate::library::{ItemId, Section, TypeUse};
 use crate::machine::program::SlotId;

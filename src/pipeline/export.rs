@@ -72,8 +72,8 @@ fn located(project: &Project, place: Option<Place>, message: &str, help: &str) -
     text
 }
 
-/// A block with its table as binary AIGER, with one bad literal, that some obligation fails, and without constraints, which
-/// not every tool reads.
+/// A block with its table as binary AIGER, with one bad literal, that some obligation fails, without constraints and
+/// with a first value for every latch, because not every tool reads others.
 #[must_use]
 pub fn obligation(system: &System) -> Vec<u8> {
     let system = together(system);
@@ -84,7 +84,14 @@ pub fn obligation(system: &System) -> Vec<u8> {
     if model.latches.len() > blasted.latches.len() {
         names.latches.push("constrained so far".to_owned());
     }
-    write::binary(&model, &names)
+    let free = model.latches.iter().zip(&names.latches).filter(|(latch, _)| latch.initial.is_none());
+    let chosen: Vec<String> = free.map(|(_, name)| format!("first {name}")).collect();
+    let begun = model.with_first_values();
+    if begun.latches.len() > model.latches.len() {
+        names.inputs.extend(chosen);
+        names.latches.push("begun".to_owned());
+    }
+    write::binary(&begun, &names)
 }
 
 /// The bytes of the file. Operators that the form does not have are written with those that it has.

@@ -12,6 +12,7 @@ mod mutants;
 mod overrides;
 mod read;
 pub mod recheck;
+pub mod ready;
 pub mod records;
 pub mod run;
 pub mod snapshot;

@@ -5,7 +5,7 @@
 
 use super::Project;
 use super::cover::counted;
-use super::verify::Ready;
+use super::ready::Ready;
 use crate::evidence::coverage::{Mutant, Mutants, Outcome};
 use crate::logic::system::Labelled;
 use crate::machine::program::{Program, Role};

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::{Asked, Project, artefact, verify};
+use super::{Asked, Project, artefact, ready};
 use crate::config::{ConfigFile, Settings};
 use crate::evidence::record::{Artefact, ArtefactKind, Claim, Record};
 use crate::machine::elaborate::Stub;
@@ -116,7 +116,7 @@ fn table_of(project: &Project, claim: &Claim) -> Result<usize, String> {
 }
 
 fn certificate(project: &Project, table: usize, artefact: &Artefact) -> Result<(), String> {
-    let ready = verify::ready(project, table)?;
+    let ready = ready::ready(project, table)?;
     let system = ready.system();
     let certificate = artefact::read_certificate(system, &artefact.value)?;
     let deadline = Instant::now() + LIMIT;
@@ -126,7 +126,7 @@ fn certificate(project: &Project, table: usize, artefact: &Artefact) -> Result<(
 }
 
 fn run(project: &Project, table: usize, artefact: &Artefact) -> Result<(), String> {
-    let ready = verify::ready(project, table)?;
+    let ready = ready::ready(project, table)?;
     let bits = |value: &serde_json::Value| value.as_u64().ok_or("a value is no number");
     let globals = artefact.value["globals"].as_array().ok_or("it has no global variables")?;
     let globals = globals.iter().map(|global| bits(&global["bits"])).collect::<Result<Vec<u64>, _>>()?;

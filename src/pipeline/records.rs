@@ -206,7 +206,7 @@ pub fn records(
 ) -> Vec<(Record, Answer)> {
     let mut digests = Digests::new(project, fs);
     let mut one = |table: &AttachedTable| {
-        let (cycle, options) = super::verify::asked(project, &table.table);
+        let (cycle, options) = super::ready::asked(project, &table.table);
         let claim = claim(&mut digests, table, Some(cycle), options);
         let answer = unusable(table).unwrap_or_else(|| answer(&claim, table));
         (Record::new(claim, &answer, origin(stamp)), answer)

@@ -52,6 +52,11 @@ impl Unrolled {
         Self { graph, solver, encoder: Encoder::default() }
     }
 
+    /// What graph and solver hold in memory, roughly, in bytes; the factor was measured.
+    pub(crate) fn bytes(&self) -> usize {
+        self.graph.bytes() * 10
+    }
+
     pub(crate) fn require(&mut self, lits: &[Lit]) {
         let clause: Vec<i32> =
             lits.iter().map(|&l| self.encoder.encode(&self.graph.aig, l, &mut self.solver)).collect();
@@ -119,7 +124,7 @@ impl Search for BmcSearch {
     fn advance(&mut self, ticks: u64, budget: &Budget, progress: &dyn Fn(Progress)) -> Option<Answer> {
         let mut left = ticks;
         while left > 0 {
-            if let Some(reason) = budget.exhausted_with(self.unrolled.graph.bytes() * 4) {
+            if let Some(reason) = budget.exhausted_with(self.unrolled.bytes()) {
                 return Some(bounded(self.depth, reason));
             }
             for index in 0..self.problem.model.constraints.len() {
@@ -146,5 +151,9 @@ impl Search for BmcSearch {
 
     fn depth(&self) -> usize {
         self.depth
+    }
+
+    fn bytes(&self) -> usize {
+        self.unrolled.bytes()
     }
 }

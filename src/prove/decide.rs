@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::engine::{Answer, Budget, Cancel, Fact as LatchFact, Hints, Progress, Proof};
+use super::engine::{Answer, Budget, Cancel, Fact as LatchFact, Hints, Progress, Proof, Reason};
 use super::options::Options;
 use super::portfolio;
 use super::product::Product;
@@ -37,13 +37,20 @@ pub struct Decided {
     pub decision: Decision,
     /// The engine.
     pub engine: &'static str,
+    /// Why nothing is decided, where nothing is.
+    pub ended: Option<Reason>,
 }
 
-/// Decides the obligations of `product`, within the options' time and memory.
+/// Decides the obligations of `product`, within the options' memory and their time, counted from `start`.
 #[must_use]
-pub fn decide(product: &Product, options: &Options, cancel: &Cancel, listener: &(dyn Fn(Progress) + Sync)) -> Decided {
+pub fn decide(
+    product: &Product,
+    options: &Options,
+    (start, cancel): (Instant, &Cancel),
+    listener: &(dyn Fn(Progress) + Sync),
+) -> Decided {
     let budget = Budget {
-        deadline: Instant::now().checked_add(options.timeout),
+        deadline: start.checked_add(options.timeout),
         memory: usize::try_from(options.memory.saturating_mul(1 << 20)).unwrap_or(usize::MAX),
         cancel: cancel.clone(),
     };
@@ -51,6 +58,10 @@ pub fn decide(product: &Product, options: &Options, cancel: &Cancel, listener: &
     let words = blasted.states.clone();
     let options = portfolio::Options { hints: Hints { words }, ..portfolio::Options::default() };
     let outcome = portfolio::decide(&blasted.model, 0, &options, &budget, listener);
+    let ended = match outcome.answer {
+        Answer::Bounded { reason, .. } | Answer::GaveUp(reason) => Some(reason),
+        Answer::Proved(_) | Answer::Violated(_) => None,
+    };
     let decision = match outcome.answer {
         Answer::Proved(proof) => Decision::Proved(certificate(&blasted, proof)),
         Answer::Violated(trace) => {
@@ -61,7 +72,7 @@ pub fn decide(product: &Product, options: &Options, cancel: &Cancel, listener: &
         Answer::Bounded { depth, .. } => Decision::Bounded(depth as u64),
         Answer::GaveUp(_) => Decision::Bounded(0),
     };
-    Decided { decision, engine: outcome.engine }
+    Decided { decision, engine: outcome.engine, ended }
 }
 
 /// The system with one obligation: that all hold.

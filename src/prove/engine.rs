@@ -194,6 +194,9 @@ pub(crate) trait Search {
 
     /// How many cycles have been shown free of violations.
     fn depth(&self) -> usize;
+
+    /// What it holds in memory, roughly, in bytes.
+    fn bytes(&self) -> usize;
 }
 
 /// Work between two looks at the clock.
@@ -205,7 +208,7 @@ pub(crate) fn drive(search: &mut dyn Search, budget: &Budget, progress: &dyn Fn(
         if let Some(answer) = search.advance(STRETCH, budget, progress) {
             return answer;
         }
-        if let Some(reason) = budget.exhausted() {
+        if let Some(reason) = budget.exhausted_with(search.bytes()) {
             return bounded(search.depth(), reason);
         }
     }
@@ -214,6 +217,19 @@ pub(crate) fn drive(search: &mut dyn Search, budget: &Budget, progress: &dyn Fn(
 /// What is known when a search has to stop.
 pub(crate) fn bounded(depth: usize, reason: Reason) -> Answer {
     if depth == 0 { Answer::GaveUp(reason) } else { Answer::Bounded { depth, reason } }
+}
+
+impl Reason {
+    /// One word for it.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::Memory => "memory",
+            Self::Cancelled => "cancelled",
+            Self::Incomplete => "incomplete",
+        }
+    }
 }
 
 impl fmt::Display for Reason {

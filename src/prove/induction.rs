@@ -135,4 +135,8 @@ impl Search for InductionSearch {
     fn depth(&self) -> usize {
         self.base.depth()
     }
+
+    fn bytes(&self) -> usize {
+        self.base.bytes() + self.step.bytes()
+    }
 }

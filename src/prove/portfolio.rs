@@ -78,45 +78,77 @@ fn enrich(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'
     }
 }
 
-/// A search, its engine, and the work that it may do.
-type Turn<'a> = (&'a mut dyn Search, &'static str, u64);
+/// A search that takes turns, until it cannot go on.
+struct Lane {
+    engine: &'static str,
+    /// `None` where the search ended without an answer that settles the question; then it holds no memory.
+    search: Option<Box<dyn Search>>,
+    depth: usize,
+    bytes: usize,
+}
 
-/// One turn of each; the first answer that settles the question.
-fn round(turns: &mut [Turn<'_>], budget: &Budget, listener: Listener<'_>) -> Option<Outcome> {
-    turns.iter_mut().find_map(|(search, engine, work)| {
-        let answer = search.advance(*work, budget, listener).filter(Answer::is_final)?;
-        Some(Outcome { answer, engine })
-    })
+impl Lane {
+    fn new(engine: &'static str, search: impl Search + 'static) -> Self {
+        Self { engine, search: Some(Box::new(search)), depth: 0, bytes: 0 }
+    }
+
+    /// One turn; the answer, where it settles the question.
+    fn turn(&mut self, work: u64, budget: &Budget, listener: Listener<'_>) -> Option<Outcome> {
+        let search = self.search.as_mut()?;
+        let answer = search.advance(work, budget, listener);
+        (self.depth, self.bytes) = (self.depth.max(search.depth()), search.bytes());
+        match answer {
+            Some(answer) if answer.is_final() => return Some(Outcome { answer, engine: self.engine }),
+            None if self.bytes <= budget.memory => {}
+            _ => (self.search, self.bytes) = (None, 0),
+        }
+        None
+    }
+}
+
+/// One turn of each, within what memory the others leave; the first answer that settles the question.
+fn round(lanes: &mut [Lane], work: u64, budget: &Budget, listener: Listener<'_>) -> Option<Outcome> {
+    for index in 0..lanes.len() {
+        let others: usize = lanes.iter().map(|lane| lane.bytes).sum::<usize>() - lanes[index].bytes;
+        let budget = Budget { memory: budget.memory.saturating_sub(others), ..budget.clone() };
+        if let Some(outcome) = lanes[index].turn(work, &budget, listener) {
+            return Some(outcome);
+        }
+    }
+    None
 }
 
 fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'_>) -> Outcome {
-    let mut look = BmcSearch::new(problem.clone());
-    if let Some(answer) = look.advance(LOOK, budget, listener) {
-        return Outcome { answer, engine: "bmc" };
+    let mut look = Lane::new("bmc", BmcSearch::new(problem.clone()));
+    if let Some(outcome) = look.turn(LOOK, budget, listener) {
+        return outcome;
     }
-    let safe = look.depth();
+    let safe = look.depth;
     drop(look);
-    let mut plain = Ic3Search::new(problem.clone());
-    let mut short = InductionSearch::new(problem.clone());
-    if let Some(outcome) = round(&mut [(&mut short, "induction", SHORT), (&mut plain, "ic3", TURN)], budget, listener) {
+    let mut short = Lane::new("induction", InductionSearch::new(problem.clone()));
+    if let Some(outcome) = short.turn(SHORT, budget, listener) {
         return outcome;
     }
     drop(short);
-    let problem = match enrich(problem, hints, budget, listener) {
+    let mut plain = Lane::new("ic3", Ic3Search::new(problem.clone()));
+    if let Some(outcome) = plain.turn(TURN, budget, listener) {
+        return outcome;
+    }
+    let left = Budget { memory: budget.memory.saturating_sub(plain.bytes), ..budget.clone() };
+    let problem = match enrich(problem, hints, &left, listener) {
         Ok(problem) => problem,
         Err(outcome) => return outcome,
     };
-    let mut ic3 = Ic3Search::new(problem.clone());
-    let mut induction = InductionSearch::new(problem);
+    let (ic3, induction) = (Ic3Search::new(problem.clone()), InductionSearch::new(problem));
+    let mut lanes = [Lane::new("ic3", ic3), Lane::new("induction", induction), plain];
     let mut turn = TURN;
     loop {
-        let turns: &mut [Turn<'_>] =
-            &mut [(&mut ic3, "ic3", turn), (&mut induction, "induction", turn), (&mut plain, "ic3", turn)];
-        if let Some(outcome) = round(turns, budget, listener) {
+        if let Some(outcome) = round(&mut lanes, turn, budget, listener) {
             return outcome;
         }
-        let deepest = safe.max(ic3.depth()).max(induction.depth()).max(plain.depth());
-        if let Some(reason) = budget.exhausted() {
+        let ended = lanes.iter().all(|lane| lane.search.is_none());
+        if let Some(reason) = budget.exhausted().or(ended.then_some(Reason::Memory)) {
+            let deepest = lanes.iter().fold(safe, |depth, lane| depth.max(lane.depth));
             return Outcome { answer: bounded(deepest, reason), engine: "portfolio" };
         }
         turn = turn.saturating_add(turn / 4);
@@ -125,7 +157,8 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
 
 fn side_by_side(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'_>) -> Outcome {
     let other = problem.clone();
-    let (budget, won) = budget.race();
+    let half = Budget { memory: budget.memory / 2, ..budget.clone() };
+    let (budget, won) = half.race();
     let (budget, won) = (&budget, &won);
     let (one, two) = std::thread::scope(|scope| {
         let beside = scope.spawn(|| {

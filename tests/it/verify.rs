@@ -171,3 +171,49 @@ fn a_stub_that_cannot_be_read_is_told() {
     assert_eq!(project.files.get(told.place.file).path, "stubs/none.st");
     assert_eq!(project.asked.stubs.len(), 1);
 }
+
+/// A block whose table holds only if a number of 31 bits is prime, and one that is proven at once.
+const HOPELESS: &str = "(* Two factors.\n\n   @gtt No product\n   | # | out Found | dur |\n   |---|---|---|\n   | 1 | F | -∞ |\n*)\n\
+                        FUNCTION_BLOCK FB_Factors\nVAR_INPUT A, B : ULINT; END_VAR\nVAR_OUTPUT Found : BOOL; END_VAR\n\
+                        Found := A > 1 AND B > 1 AND A < 4294967296 AND B < 4294967296 AND A * B = 2305843009213693951;\n\
+                        END_FUNCTION_BLOCK\n";
+
+fn hopeless_and_simple() -> tempfile::TempDir {
+    let folder = folder(TOGGLE);
+    fs::write(folder.path().join("FB_Factors.st"), HOPELESS).expect("written");
+    folder
+}
+
+fn verdicts(answer: &Value) -> Vec<(&str, &str)> {
+    let tables = answer["tables"].as_array().expect("tables").iter();
+    tables.map(|table| (table["verdict"].as_str().unwrap_or(""), table["ended"].as_str().unwrap_or(""))).collect()
+}
+
+#[test]
+fn a_hopeless_table_ends_with_its_time_and_the_others_have_their_verdicts() {
+    // On a busy machine one try may be late; three are not.
+    let late = (0..3).all(|_| {
+        let (code, answer) = verify(&["--timeout", "4", "--fresh"], hopeless_and_simple().path());
+        assert_eq!((code, verdicts(&answer)), (3, vec![("bounded", "time"), ("verified", "")]));
+        let seconds = answer["tables"][0]["seconds"].as_f64().expect("a time");
+        assert!(seconds >= 3.9, "it gave up after {seconds} s");
+        seconds > 4.4
+    });
+    assert!(!late, "more than 10 % over the time limit, three times");
+}
+
+/// A block that multiplies what it holds: every cycle more is as much more to remember.
+const GROWING: &str = "(* Numbers.\n\n   @gtt Never this one\n   | # | in Step | out State | dur |\n   |---|---|---|---|\n\
+                       | 1 | - | <> 123456789 | -∞ |\n*)\n\
+                       FUNCTION_BLOCK FB_Factors\nVAR_INPUT Step : BOOL; END_VAR\nVAR_OUTPUT State : UDINT; END_VAR\n\
+                       IF Step THEN State := State * 1664525 + 1013904223; ELSE State := State * State + 12345; END_IF\n\
+                       END_FUNCTION_BLOCK\n";
+
+#[test]
+fn a_hopeless_table_ends_with_its_memory_and_the_others_have_their_verdicts() {
+    let folder = folder(TOGGLE);
+    fs::write(folder.path().join("FB_Factors.st"), GROWING).expect("written");
+    let (code, answer) = verify(&["--timeout", "600", "--memory", "8", "--fresh"], folder.path());
+    assert_eq!((code, verdicts(&answer)), (3, vec![("bounded", "memory"), ("verified", "")]));
+    assert!(answer["tables"][0]["detail"] != "no violation in the first 0 cycles", "it looked at some cycles first");
+}

@@ -177,7 +177,7 @@ fn obligations(project: &Project, chosen: &[usize], folder: &Path) -> Result<Exi
         let attached = &project.tables[index];
         let unit = attached.item.map_or("", |item| &project.catalogue.item(item).name);
         let name = format!("{unit}-{}", attached.table.name).replace(|c: char| !c.is_alphanumeric() && c != '-', "_");
-        match pipeline::verify::ready(project, index) {
+        match pipeline::ready::ready(project, index) {
             Ok(ready) => write::file(&folder.join(format!("{name}.aig")), &export::obligation(ready.system()))?,
             Err(reason) => {
                 say(&format!("`{}` has no obligation: {reason}", attached.table.name));

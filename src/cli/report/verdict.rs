@@ -100,7 +100,9 @@ fn told(project: &Project, line: &Line, colour: bool) -> String {
             reasons.iter().for_each(|reason| out.push_str(&format!("            {reason}\n")));
         }
         Verdict::Bounded { cycles } => {
-            out.push_str(&format!("            no violation in the first {cycles} cycles\n"))
+            let ended = line.verified.as_ref().and_then(|verified| verified.ended);
+            let ended = ended.map_or_else(String::new, |reason| format!("; {reason}"));
+            out.push_str(&format!("            no violation in the first {cycles} cycles{ended}\n"));
         }
         _ => {}
     }
@@ -249,6 +251,7 @@ fn one(project: &Project, line: &Line) -> Value {
         "columns": columns,
         "reasons": reasons,
         "engine": line.answer.engine,
+        "ended": line.verified.as_ref().and_then(|verified| verified.ended).map(|reason| reason.word()),
         "seconds": line.answer.effort.map(|effort| effort.milliseconds as f64 / 1000.0),
         "cycle_ns": line.verified.as_ref().map(|verified| verified.cycle_time),
         "assumptions": line.answer.rests_on,

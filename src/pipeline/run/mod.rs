@@ -129,7 +129,7 @@ impl<'a> Ready<'a> {
 /// The cycle time of a table in nanoseconds.
 #[must_use]
 pub fn cycle_time(project: &Project, index: usize) -> u64 {
-    super::verify::asked(project, &project.tables[index].table).0
+    super::ready::asked(project, &project.tables[index].table).0
 }
 
 /// Plays a table on its block.

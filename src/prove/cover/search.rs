@@ -65,7 +65,7 @@ fn unrolled(
         }
         loop {
             let open = frontier.open();
-            if open.is_empty() || left == 0 || budget.exhausted_with(unrolled.graph.bytes() * 4).is_some() {
+            if open.is_empty() || left == 0 || budget.exhausted_with(unrolled.bytes()).is_some() {
                 return depth;
             }
             let mut any = Lit::FALSE;

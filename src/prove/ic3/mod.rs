@@ -116,10 +116,6 @@ impl Ic3Search {
         self.frames.len() - 1
     }
 
-    fn bytes(&self) -> usize {
-        self.frames.iter().map(|f| f.asker.solver.bytes()).sum::<usize>() + self.queue.bytes()
-    }
-
     /// Blocks what is queued, then looks for the next bad state, then opens a frame.
     fn proceed(&mut self, progress: &dyn Fn(Progress)) -> Result<Answer, Stop> {
         loop {
@@ -138,7 +134,7 @@ impl Ic3Search {
                 continue;
             }
             self.safe = self.frames.len();
-            if let Some(reason) = self.budget.exhausted_with(self.bytes()) {
+            if let Some(reason) = self.budget.exhausted_with(Search::bytes(self)) {
                 return Err(Stop::End(reason));
             }
             self.open_frame();
@@ -205,5 +201,11 @@ impl Search for Ic3Search {
 
     fn depth(&self) -> usize {
         self.safe
+    }
+
+    fn bytes(&self) -> usize {
+        let beside = [&self.forever, &self.lifter, &self.first].into_iter();
+        let askers = self.frames.iter().map(|f| &f.asker).chain(beside);
+        askers.map(|asker| asker.solver.bytes()).sum::<usize>() + self.queue.bytes()
     }
 }

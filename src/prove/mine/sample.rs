@@ -9,6 +9,8 @@ pub(super) struct Samples {
     /// For each node, a word for each cycle: a bit for each of 64 runs; false outside of `valid`.
     nodes: Vec<Vec<u64>>,
     valid: Vec<u64>,
+    /// Bytes that may still be recorded.
+    room: usize,
     /// For each word, values of some runs in some cycles.
     pub(super) words: Vec<Vec<u64>>,
     /// For each guard, whether it was true there.
@@ -35,7 +37,7 @@ const BEYOND: usize = 1_100;
 const LANES: u32 = 8;
 
 impl Samples {
-    /// Of random runs, and of runs like `traces`.
+    /// Of random runs, and of runs like `traces`, as many as fit into a quarter of the budget's memory.
     ///
     /// # Errors
     /// If the budget ends before.
@@ -43,6 +45,7 @@ impl Samples {
         let mut samples = Self {
             nodes: vec![Vec::new(); wanted.nodes.len()],
             valid: Vec::new(),
+            room: budget.memory / 4,
             words: vec![Vec::new(); wanted.words.len()],
             guards: vec![Vec::new(); wanted.guards.len()],
         };
@@ -133,6 +136,10 @@ impl Samples {
     }
 
     fn record(&mut self, run: &Simulator<'_>, wanted: Wanted<'_>, alive: u64) {
+        let lanes = LANES as usize;
+        let bytes = 8 * (1 + wanted.nodes.len() + lanes * wanted.words.len()) + lanes * wanted.guards.len();
+        let Some(room) = self.room.checked_sub(bytes) else { return };
+        self.room = room;
         self.valid.push(alive);
         for (values, &node) in self.nodes.iter_mut().zip(wanted.nodes) {
             values.push(run.value(node) & alive);

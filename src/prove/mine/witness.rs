@@ -32,6 +32,9 @@ pub(super) fn witnesses(model: &Model, targets: &[Lit], budget: &Budget) -> Vec<
     let mut search = Search { model, unrolled, random: Random::new(3), left: TICKS, constrained: 0 };
     let (mut open, mut found) = (targets.to_vec(), Vec::new());
     for depth in 0..DEPTH {
+        if budget.exhausted_with(search.unrolled.bytes()).is_some() {
+            break;
+        }
         search.constrain(depth);
         let mut later = Vec::new();
         for target in std::mem::take(&mut open) {
