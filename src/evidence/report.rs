@@ -1,8 +1,8 @@
 //! The evidence report, as a page in Markdown that the manual shows and the typesetter sets.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::coverage::{Coverage, Kind};
+use super::coverage::{Coverage, Fate, Item, Kind, Mutant};
 use super::diff::Comparison;
 use super::policy::allow::Allowed;
 use super::record::{Origin, Record, Verdict};
@@ -181,34 +181,71 @@ fn covered(coverage: &Coverage) -> String {
     vacuous.collect::<String>() + &cell(&coverage.line())
 }
 
-/// What no run within a table reaches, and what tables leave free.
+/// What of a block no run within any of its verified tables reaches, and which changes none of them notices. What one table
+/// leaves out and another one covers is no hole: each table's own share stands in its line above.
 fn uncovered(input: &Input<'_>, out: &mut String) {
-    let covered = input.records.iter().filter_map(|record| Some((record, record.coverage.as_ref()?)));
-    let with_holes: Vec<_> =
-        covered.filter(|(_, coverage)| coverage.missed().next().is_some() || coverage.mutants.is_some()).collect();
-    if with_holes.is_empty() {
+    let mut blocks: BTreeMap<String, Vec<(&Record, &Coverage)>> = BTreeMap::new();
+    for record in input.records {
+        if let (Some(block), Some(coverage)) = (&record.claim.block, &record.coverage) {
+            blocks.entry(block.name.clone()).or_default().push((record, coverage));
+        }
+    }
+    let rows: Vec<[String; 4]> = blocks.iter().flat_map(|(block, tables)| holes_of(block, tables)).collect();
+    if rows.is_empty() {
         return;
     }
     out.push_str("## What verified tables do not cover\n\n");
-    out.push_str("A row, statement or way of a branch that no run within the table reaches; a change to the block that the table does not notice.\n\n");
-    head(out, &["table", "what", "where", "fate"]);
-    for (record, coverage) in with_holes {
-        let subject = cell(&record.claim.subject());
-        for item in coverage.missed() {
-            let kind = match item.kind {
-                Kind::Row => "row",
-                Kind::Statement => "statement",
-                Kind::Branch => "branch",
-            };
-            let place = format!("{}:{}", cell(&item.file), item.line);
-            row(out, &[&subject, &format!("{kind} {}", cell(&item.name)), &place, &item.fate.text()]);
-        }
-        for mutant in coverage.mutants.iter().flat_map(|mutants| mutants.survivors()) {
-            let place = format!("{}:{}", cell(&mutant.file), mutant.line);
-            row(out, &[&subject, &format!("mutant {}", cell(&mutant.change)), &place, &cell(&mutant.outcome.text())]);
-        }
+    out.push_str(
+        "A row that no run of its table reaches; a statement or a way of a branch that no run within any verified table of the \
+         block reaches; a change to the block that none of them notices.\n\n",
+    );
+    head(out, &["block", "what", "where", "fate"]);
+    for [block, what, place, fate] in &rows {
+        row(out, &[&cell(block), &cell(what), &cell(place), &cell(fate)]);
     }
     out.push('\n');
+}
+
+/// A line for each hole of a block: what it is in, what it is, where, and what is known of it.
+fn holes_of(block: &str, tables: &[(&Record, &Coverage)]) -> Vec<[String; 4]> {
+    let mut out = Vec::new();
+    for (record, coverage) in tables {
+        for item in coverage.missed().filter(|item| item.kind == Kind::Row) {
+            let place = format!("{}:{}", item.file, item.line);
+            out.push([record.claim.subject(), format!("row {}", item.name), place, item.fate.text()]);
+        }
+    }
+    let reached = |item: &Item| {
+        tables.iter().any(|(_, coverage)| {
+            let same = |other: &&Item| other.kind == item.kind && other.line == item.line && other.name == item.name;
+            let found = coverage.items.iter().find(|other| same(other) && other.file == item.file);
+            found.is_some_and(|other| matches!(other.fate, Fate::Reached { .. }))
+        })
+    };
+    let mut seen = BTreeSet::new();
+    for item in tables.iter().flat_map(|(_, coverage)| coverage.missed()) {
+        let kind = match item.kind {
+            Kind::Row => continue,
+            Kind::Statement => "statement",
+            Kind::Branch => "branch",
+        };
+        let place = format!("{}:{}", item.file, item.line);
+        if !reached(item) && seen.insert((kind, item.name.clone(), place.clone())) {
+            let fate = if tables.len() == 1 { item.fate.text() } else { "by none of its tables".to_owned() };
+            out.push([block.to_owned(), format!("{kind} {}", item.name), place, fate]);
+        }
+    }
+    let with_mutants: Vec<_> = tables.iter().filter_map(|(_, coverage)| coverage.mutants.as_ref()).collect();
+    let Some((one, others)) = with_mutants.split_first() else { return out };
+    for mutant in one.survivors() {
+        let same =
+            |other: &&Mutant| (other.line, &other.file, &other.change) == (mutant.line, &mutant.file, &mutant.change);
+        if others.iter().all(|mutants| mutants.survivors().any(|other| same(&other))) {
+            let place = format!("{}:{}", mutant.file, mutant.line);
+            out.push([block.to_owned(), format!("mutant {}", mutant.change), place, mutant.outcome.text()]);
+        }
+    }
+    out
 }
 
 fn holes(input: &Input<'_>, out: &mut String) {

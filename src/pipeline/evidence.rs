@@ -216,7 +216,7 @@ pub(super) fn show(beside: &Beside, book: &mut Book) {
 #[must_use]
 pub fn report_book(book: &Book, pages: usize) -> Book {
     let mut front = book.front.clone();
-    front.subtitle = "Evidence report".to_owned();
+    front.genre = "Evidence report".to_owned();
     let chapters = book.chapters[book.chapters.len().saturating_sub(pages)..].to_vec();
     Book {
         front,

@@ -11,8 +11,8 @@ mod libraries;
 mod mutants;
 mod overrides;
 mod read;
-pub mod recheck;
 pub mod ready;
+pub mod recheck;
 pub mod records;
 pub mod run;
 pub mod snapshot;
@@ -168,6 +168,7 @@ pub fn book(project: &Project, settings: &Settings, stamp: &Stamp) -> Book {
     let (title, version) = title(project, settings);
     let author = settings.author.clone().or_else(|| of_library(project, |library| &library.author));
     let front = Front {
+        genre: "Reference manual".to_owned(),
         title,
         subtitle: settings.subtitle.clone(),
         version,

@@ -8,6 +8,8 @@ use super::{Project, artefact, cover, mutants};
 use crate::config::Settings;
 use crate::evidence::coverage::Coverage;
 use crate::library::ItemId;
+use crate::logic::certificate::{Certificate, Fact};
+use crate::logic::system::System;
 use crate::machine::program::{Program, SlotId};
 use crate::prove::decide::{Choice, Decision, decide};
 use crate::prove::engine::{self, Cancel, Progress};
@@ -158,12 +160,31 @@ fn confirm_certificate(ready: &Ready, settings: &Settings, made: &mut Verified) 
     if let Err(rejection) = invariant::check(ready.system(), certificate, &stop) {
         made.internal = Some(match rejection {
             Rejection::OutOfTime => "the certificate could not be checked again in time".to_owned(),
-            other => format!("the certificate of `{}` was rejected: {other:?}", made.engine),
+            other => {
+                let clause = match other {
+                    Rejection::NotInductive(index) => clause_text(ready.system(), certificate, index),
+                    _ => String::new(),
+                };
+                format!("the certificate of `{}` was rejected: {other:?}{clause}", made.engine)
+            }
         });
         made.verdict = Verdict::Bounded(0);
         return;
     }
     made.certificate = Some(artefact::certificate(ready.system(), certificate));
+}
+
+/// A clause of a certificate, for the message that it was rejected.
+fn clause_text(system: &System, certificate: &Certificate, index: usize) -> String {
+    let fact = |fact: &Fact| match fact {
+        Fact::Bit(bit) => {
+            let name = system.states.get(bit.state as usize).map_or("?", |state| state.name.as_str());
+            format!("{name}.{} = {}", bit.bit, u8::from(bit.value))
+        }
+        Fact::Gate(gate, value) => format!("gate {gate} = {}", u8::from(*value)),
+    };
+    let facts = certificate.clauses.get(index).map(|clause| clause.iter().map(fact).collect::<Vec<_>>().join(" or "));
+    facts.map_or_else(String::new, |facts| format!(" ({facts})"))
 }
 
 /// Replays a run on the interpreter and on the game.

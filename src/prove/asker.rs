@@ -48,4 +48,33 @@ impl Asker {
         }
         answer
     }
+
+    /// Lets all questions be about these, too.
+    pub(crate) fn focus<'l>(&mut self, encoding: &Encoding, lits: impl Iterator<Item = &'l Lit>) {
+        encoding.close(lits.map(|l| l.node()), &mut self.base, &mut self.marked);
+    }
+
+    /// A literal that no gate stands for, to switch clauses on by assuming it.
+    pub(crate) fn switch(&mut self) -> Lit {
+        let variable = self.solver.variable();
+        self.solver.reserve(variable as usize + 1);
+        Lit::of(variable)
+    }
+
+    /// One question, under switches, about what the extra clause rests on.
+    pub(crate) fn ask_assuming(
+        &mut self,
+        encoding: &Encoding,
+        switches: &[Lit],
+        extra: &[Lit],
+        budget: u64,
+    ) -> Option<bool> {
+        let base = self.base.len();
+        encoding.close(extra.iter().map(|l| l.node()), &mut self.base, &mut self.marked);
+        let answer = self.solver.solve(switches, Some(extra), Some(&self.base), budget);
+        for variable in self.base.drain(base..) {
+            self.marked[variable as usize] = false;
+        }
+        answer
+    }
 }

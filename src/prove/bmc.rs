@@ -79,7 +79,8 @@ impl Unrolled {
             if let Some(reason) = budget.exhausted() {
                 return Reply::Stopped(reason);
             }
-            *ticks = ticks.saturating_sub(u64::from(conflicts) * CONFLICT);
+            let size = self.graph.aig.len() as u64;
+            *ticks = ticks.saturating_sub(u64::from(conflicts) * (CONFLICT + size / 16));
             if *ticks == 0 {
                 return Reply::Pause;
             }

@@ -1,14 +1,16 @@
 //! All engines on one property.
 //!
 //! With one job the order is fixed and shares are counted in work, not in time, so that the same model gives the same
-//! answer with the same evidence: a short search for a violation, a turn of induction and of IC3, mining, then IC3 and
-//! induction (which searches for violations on the side) with what was mined, and IC3 without, in turns that grow. With two jobs induction runs beside
-//! mining and IC3, and the first answer counts: its kind is the same, its evidence may differ.
+//! answer with the same evidence: a short search for a violation, a short turn of induction, interpolation and IC3, mining,
+//! then interpolation and IC3 as they stand, and IC3 and induction (which searches for violations on the side) with what
+//! was mined, in turns that grow. With two jobs induction runs beside mining and IC3, and the first answer counts: its kind
+//! is the same, its evidence may differ.
 
 use super::bmc::BmcSearch;
 use super::engine::{Answer, Budget, Cancel, Engine, Hints, Progress, Reason, Search, bounded, drive};
 use super::ic3::Ic3Search;
 use super::induction::InductionSearch;
+use super::interpolation::InterpolationSearch;
 use super::mine::{Mined, mine};
 use super::problem::Problem;
 use super::reduce::Reduced;
@@ -42,11 +44,12 @@ pub struct Outcome {
 /// Somebody who is told how it goes, from any thread.
 pub type Listener<'a> = &'a (dyn Fn(Progress) + Sync);
 
-/// Work for the first search for violations, and for the first turn of each engine.
+/// Work for the first search for violations, and for the turn of induction before mining.
 const LOOK: u64 = 4_000_000;
-const TURN: u64 = 20_000_000;
-/// Work for the turn of induction before mining.
 const SHORT: u64 = 8_000_000;
+/// Work for the first turn of interpolation and IC3, which comes before mining, and for the first one behind it.
+const GLANCE: u64 = 2_000_000;
+const TURN: u64 = 8_000_000;
 
 /// Decides the property.
 #[must_use]
@@ -130,20 +133,30 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
         return outcome;
     }
     drop(short);
-    let mut plain = Lane::new("ic3", Ic3Search::new(problem.clone()));
-    if let Some(outcome) = plain.turn(TURN, budget, listener) {
+    let mut early = [
+        Lane::new("interpolation", InterpolationSearch::new(problem.clone())),
+        Lane::new("ic3", Ic3Search::new(problem.clone())),
+    ];
+    if let Some(outcome) = round(&mut early, GLANCE, budget, listener) {
         return outcome;
     }
-    let left = Budget { memory: budget.memory.saturating_sub(plain.bytes), ..budget.clone() };
+    let [interpolation, plain] = early;
+    let held = interpolation.bytes + plain.bytes;
+    let left = Budget { memory: budget.memory.saturating_sub(held), ..budget.clone() };
     let problem = match enrich(problem, hints, &left, listener) {
         Ok(problem) => problem,
         Err(outcome) => return outcome,
     };
     let (ic3, induction) = (Ic3Search::new(problem.clone()), InductionSearch::new(problem));
-    let mut lanes = [Lane::new("ic3", ic3), Lane::new("induction", induction), plain];
+    let mut lanes = [Lane::new("induction", induction), interpolation, Lane::new("ic3", ic3), plain];
+    to_the_end(&mut lanes, safe, budget, listener)
+}
+
+/// Turns that grow, until one settles the question or all have ended.
+fn to_the_end(lanes: &mut [Lane], safe: usize, budget: &Budget, listener: Listener<'_>) -> Outcome {
     let mut turn = TURN;
     loop {
-        if let Some(outcome) = round(&mut lanes, turn, budget, listener) {
+        if let Some(outcome) = round(lanes, turn, budget, listener) {
             return outcome;
         }
         let ended = lanes.iter().all(|lane| lane.search.is_none());
@@ -151,7 +164,7 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
             let deepest = lanes.iter().fold(safe, |depth, lane| depth.max(lane.depth));
             return Outcome { answer: bounded(deepest, reason), engine: "portfolio" };
         }
-        turn = turn.saturating_add(turn / 4);
+        turn = turn.saturating_add(turn / 2);
     }
 }
 

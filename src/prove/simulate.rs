@@ -28,10 +28,12 @@ impl<'m> Simulator<'m> {
         self.model.aig.propagate(&mut self.values);
     }
 
-    /// Puts the next values into the latches.
-    pub(crate) fn step(&mut self) {
+    /// Puts the next values into the latches; whether one changes.
+    pub(crate) fn step(&mut self) -> bool {
         let next: Vec<u64> = self.model.latches.iter().map(|l| self.value(l.next)).collect();
+        let changes = self.model.latches.iter().zip(&next).any(|(latch, &next)| self.value(latch.lit) != next);
         self.start(|index| next[index]);
+        changes
     }
 
     pub(crate) fn value(&self, lit: Lit) -> u64 {

@@ -23,6 +23,8 @@ pub(super) struct Gates {
     top: Lit,
     ands: HashMap<(Lit, Lit), Lit>,
     xors: HashMap<(Lit, Lit), Lit>,
+    majorities: HashMap<[Lit; 3], Lit>,
+    choices: HashMap<[Lit; 3], Lit>,
 }
 
 impl Gates {
@@ -30,7 +32,14 @@ impl Gates {
         let mut solver = Solver::new(batsat::SolverOpts::default(), Stop(stop));
         let top = Lit::new(solver.new_var_default(), true);
         solver.add_clause_reuse(&mut vec![top]);
-        Self { solver, top, ands: HashMap::new(), xors: HashMap::new() }
+        Self {
+            solver,
+            top,
+            ands: HashMap::new(),
+            xors: HashMap::new(),
+            majorities: HashMap::new(),
+            choices: HashMap::new(),
+        }
     }
 
     /// The literal that is true, or the one that is false.
@@ -134,12 +143,55 @@ impl Gates {
         if flip { out } else { !out }
     }
 
+    /// If-then-else: one gate, so that two equal branches say what comes out before the condition is known.
     pub(super) fn mux(&mut self, condition: Lit, then: Lit, otherwise: Lit) -> Lit {
         if then == otherwise {
             return then;
         }
-        let (yes, no) = (self.and(condition, then), self.and(!condition, otherwise));
-        self.or(yes, no)
+        let known = [condition, then, otherwise].iter().any(|lit| self.known(*lit).is_some());
+        if known || condition.var() == then.var() || condition.var() == otherwise.var() || then == !otherwise {
+            let (yes, no) = (self.and(condition, then), self.and(!condition, otherwise));
+            return self.or(yes, no);
+        }
+        if let Some(known) = self.choices.get(&[condition, then, otherwise]) {
+            return *known;
+        }
+        let out = self.fresh();
+        self.clause(&[!condition, !then, out]);
+        self.clause(&[!condition, then, !out]);
+        self.clause(&[condition, !otherwise, out]);
+        self.clause(&[condition, otherwise, !out]);
+        self.clause(&[!then, !otherwise, out]);
+        self.clause(&[then, otherwise, !out]);
+        self.choices.insert([condition, then, otherwise], out);
+        out
+    }
+
+    /// Whether two of three are true: one gate, so that any two that agree say what comes out. Carries and comparisons are
+    /// chains of these; in gates of two operands a solver finds no order among words.
+    fn majority(&mut self, a: Lit, b: Lit, c: Lit) -> Lit {
+        let mut three = [a, b, c];
+        three.sort_unstable();
+        let [a, b, c] = three;
+        for (one, x, y) in [(a, b, c), (b, a, c), (c, a, b)] {
+            match self.known(one) {
+                Some(true) => return self.or(x, y),
+                Some(false) => return self.and(x, y),
+                None if x == y => return x,
+                None if x == !y => return one,
+                None => {}
+            }
+        }
+        if let Some(known) = self.majorities.get(&three) {
+            return *known;
+        }
+        let out = self.fresh();
+        for (x, y) in [(a, b), (a, c), (b, c)] {
+            self.clause(&[!x, !y, out]);
+            self.clause(&[x, y, !out]);
+        }
+        self.majorities.insert(three, out);
+        out
     }
 
     pub(super) fn any(&mut self, word: &[Lit]) -> Lit {
@@ -182,8 +234,7 @@ impl Gates {
         for (a, b) in a.iter().zip(b) {
             let half = self.xor(*a, *b);
             sum.push(self.xor(half, carry));
-            let (both, through) = (self.and(*a, *b), self.and(half, carry));
-            carry = self.or(both, through);
+            carry = self.majority(*a, *b, carry);
         }
         (sum, carry)
     }
@@ -208,7 +259,8 @@ impl Gates {
     }
 
     pub(super) fn unsigned_less(&mut self, a: &[Lit], b: &[Lit]) -> Lit {
-        !self.subtract(a, b).1
+        let not_less = a.iter().zip(b).fold(self.top, |carry, (a, b)| self.majority(*a, !*b, carry));
+        !not_less
     }
 
     pub(super) fn signed_less(&mut self, a: &[Lit], b: &[Lit]) -> Lit {

@@ -50,6 +50,8 @@ pub struct Book {
 /// What the title page says. Strings are empty where nothing is known.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Front {
+    /// What the document is: `Reference manual`, `Evidence report`.
+    pub genre: String,
     /// Title.
     pub title: String,
     /// Subtitle.

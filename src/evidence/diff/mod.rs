@@ -110,9 +110,12 @@ impl Comparison {
 pub fn compare(old: &Snapshot, new: &Snapshot) -> Comparison {
     let interface = interface::compare(old, new);
     let tables = tables::compare(old, new);
-    let advice = if interface.iter().any(|change| change.breaking) {
+    let lost = lost(old, new);
+    // A block that has been proven to conform and does not, or of which that is not promised any more, breaks its users.
+    let is_broken = |lost: &Lost| lost.now == "violated" || lost.now == "removed";
+    let advice = if interface.iter().any(|change| change.breaking) || lost.iter().any(is_broken) {
         Step::Major
-    } else if !interface.is_empty() || !tables.is_empty() {
+    } else if !interface.is_empty() || !tables.is_empty() || !lost.is_empty() {
         Step::Minor
     } else {
         Step::Patch
@@ -121,7 +124,7 @@ pub fn compare(old: &Snapshot, new: &Snapshot) -> Comparison {
         old: release(old),
         new: release(new),
         documentation: documentation(old, new),
-        lost: lost(old, new),
+        lost,
         interface,
         tables,
         advice,

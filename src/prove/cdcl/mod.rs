@@ -10,11 +10,12 @@
 //! * a question may bring one **temporary clause**. It and all that was learnt from it are gone afterwards, so no
 //!   activation variables pile up and the solver is never restarted.
 //!
-//! Left out: preprocessing, proofs, and the bucket queue of the paper. Limits are counted, not timed, so that the same
+//! Left out: preprocessing, and the bucket queue of the paper. Proofs are kept only where an interpolant is wanted. Limits are counted, not timed, so that the same
 //! questions always get the same answers (the clock only ends everything); `ticks` is the measure of work that everything above shares.
 
 mod clauses;
 mod heap;
+mod proof;
 mod search;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,7 @@ mod tests;
 use crate::logic::aig::Lit;
 use crate::logic::sat::Stop;
 use heap::Heap;
+pub(crate) use proof::Part;
 
 /// No clause.
 const NONE: u32 = u32::MAX;
@@ -62,6 +64,7 @@ pub(crate) struct Solver {
     guard: Option<u32>,
     guarded: Vec<u32>,
     most_learnts: usize,
+    log: Option<Box<proof::Log>>,
     /// When to give up at once.
     pub(crate) stop: Stop,
     look: u64,
@@ -102,7 +105,8 @@ impl Solver {
 
     /// What it takes in memory, roughly, in bytes.
     pub(crate) fn bytes(&self) -> usize {
-        self.arena.capacity() * 4 + self.level.len() * 120 + self.originals.len() * 32 + self.learnts.len() * 32
+        let log = self.log.as_ref().map_or(0, |log| log.bytes());
+        log + self.arena.capacity() * 4 + self.level.len() * 120 + self.originals.len() * 32 + self.learnts.len() * 32
     }
 
     /// Whether the clauses alone contradict each other.
@@ -179,7 +183,11 @@ impl Solver {
     fn settle(&mut self) {
         self.confined = false;
         self.head = self.settled;
-        self.broken |= self.propagate() != NONE;
+        let conflict = self.propagate();
+        if conflict != NONE {
+            self.broken = true;
+            self.note_end(conflict);
+        }
         self.settled = self.trail.len();
     }
 

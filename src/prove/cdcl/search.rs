@@ -92,6 +92,7 @@ impl Solver {
         let mut open = 0;
         let mut at = self.trail.len();
         let mut skip = 0;
+        self.note_resolved(NONE, conflict);
         loop {
             for index in skip..self.size(conflict) {
                 let lit = self.lit(conflict, index);
@@ -120,9 +121,11 @@ impl Solver {
                 break;
             }
             conflict = self.reason[lit.node() as usize];
+            self.note_resolved(lit.node(), conflict);
             skip = 1;
         }
         self.minimize(&mut learnt);
+        self.note_learnt();
         let back = self.second_highest(&mut learnt);
         (learnt, back)
     }
@@ -138,6 +141,9 @@ impl Solver {
         }
         for lit in marked.iter().chain(&touched) {
             self.seen[lit.node() as usize] = false;
+        }
+        if self.log.is_some() {
+            self.note_removed(marked.iter().filter(|lit| !kept.contains(lit)).chain(&touched).copied());
         }
         *learnt = kept;
     }
@@ -207,6 +213,7 @@ impl Solver {
 
     fn learn(&mut self, learnt: &[Lit]) {
         if let [unit] = learnt {
+            self.note_kept(Some(*unit), NONE);
             self.assign(*unit, NONE);
             return;
         }
@@ -220,6 +227,7 @@ impl Solver {
             }
         }
         let clause = self.store(learnt, true, distinct);
+        self.note_kept(None, clause);
         let guarded = self.guard.is_some_and(|g| learnt.iter().any(|l| l.node() == g));
         if guarded {
             self.guarded.push(clause);
@@ -276,6 +284,7 @@ impl Solver {
             if conflict != NONE {
                 if self.levels.is_empty() {
                     self.broken = true;
+                    self.note_end(conflict);
                     return Some(false);
                 }
                 conflicts += 1;

@@ -1,9 +1,9 @@
 //! What a proof covered: which rows some run reaches, which statements and branches some run within the table executes.
 //!
 //! Each is a question of reachability on the obligation's own system: is there a run, its inputs those of the table, that
-//! comes there? Random runs answer most of them, bounded model checking finds the rest, and what no run of so many
-//! cycles reaches is handed to IC3, which may prove that none ever does. The answers are runs and certificates, for others to
-//! check. Work is counted, not time: the same question has the same answer.
+//! comes there? Random runs answer most of them, runs from state to state of the table and bounded model checking find the
+//! rest, and what no run of so many cycles reaches is handed to IC3, which may prove that none ever does. The answers are
+//! runs and certificates, for others to check. Work is counted, not time: the same question has the same answer.
 
 mod frontier;
 pub mod mutate;
@@ -46,7 +46,7 @@ pub struct Effort {
 
 impl Default for Effort {
     fn default() -> Self {
-        Self { simulation: 60_000_000, search: 20_000_000, proof: 30_000_000, depth: 100 }
+        Self { simulation: 60_000_000, search: 5_000_000, proof: 10_000_000, depth: 100 }
     }
 }
 

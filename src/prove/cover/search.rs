@@ -8,6 +8,7 @@ use super::super::decide::certificate;
 use super::super::engine::{Answer, Budget, Cancel, Search};
 use super::super::ic3::Ic3Search;
 use super::super::reduce::Reduced;
+use super::super::witness;
 use super::frontier::Frontier;
 use super::walk::Walker;
 use super::{Effort, Fate, Question, Reached};
@@ -27,6 +28,7 @@ pub fn reach(question: &Question, effort: &Effort, cancel: &Cancel) -> Reached {
     let mut frontier = Frontier::new(question.targets.len());
     let mut walker = Walker::new(question, &blasted, effort.simulation);
     walker.explore(&mut frontier);
+    witnessed(&blasted, &budget, &mut walker, &mut frontier);
     let depth = unrolled(&blasted.model, effort, &budget, &mut walker, &mut frontier);
     let mut never = vec![None; question.targets.len()];
     proofs(&blasted, effort, &budget, &mut walker, &mut frontier, &mut never);
@@ -37,6 +39,22 @@ pub fn reach(question: &Question, effort: &Effort, cancel: &Cancel) -> Reached {
         (None, None) => Fate::NotWithin(depth),
     };
     Reached { fates: reached.into_iter().zip(never).map(fate).collect(), runs }
+}
+
+/// Follows runs that lead, step by step, through the states of the table's automaton and the block's flags.
+fn witnessed(blasted: &Blasted, budget: &Budget, walker: &mut Walker<'_>, frontier: &mut Frontier) {
+    if frontier.is_done() {
+        return;
+    }
+    let model = &blasted.model;
+    let mut targets = witness::guards(model, &blasted.states);
+    targets.extend(frontier.open().into_iter().map(|target| model.bad[target]).filter(|lit| *lit != Lit::FALSE));
+    for run in witness::witnesses(model, &targets, budget) {
+        if frontier.is_done() {
+            return;
+        }
+        walker.follow(&run, BEHIND, frontier);
+    }
 }
 
 /// The system whose obligations are that the targets are not reached.

@@ -11,17 +11,19 @@
 
 mod cases;
 mod houdini;
+mod inputs;
 mod predicates;
 mod sample;
-mod witness;
 
 use super::engine::{Answer, Budget, Engine, Hints, Progress, Reason};
 use super::problem::Problem;
-use crate::logic::aig::{Gate, Lit, Model, Trace};
+use super::witness;
+use crate::logic::aig::{Gate, Lit, Model};
 use cases::Question;
 use houdini::Houdini;
+use inputs::Inputs;
 use predicates::Predicates;
-use sample::{Samples, Wanted};
+use sample::{Runs, Samples, Wanted};
 
 /// The engine.
 #[derive(Clone, Debug, Default)]
@@ -55,19 +57,18 @@ pub(crate) enum Mined {
 
 /// Most nodes that are compared pair by pair for implications.
 const PAIRED: usize = 200;
-/// Most guards.
-const GUARDS: usize = 50;
 
 /// Finds facts and adds them to the problem.
 pub(crate) fn mine(mut problem: Problem, hints: &Hints, budget: &Budget) -> Result<Mined, Reason> {
     let words: Vec<Vec<Lit>> = hints.words.iter().filter(|w| w.len() > 1).cloned().collect();
-    let guards = guards(&problem.model, &words);
+    let guards = witness::guards(&problem.model, &words);
     let traces = witness::witnesses(&problem.model, &guards, budget);
+    let inputs = Inputs::new(&problem.model, &traces);
     let wanted = Wanted { nodes: &[], words: &words, guards: &guards };
-    let sampled = Samples::take(&problem.model, wanted, &traces, budget)?;
+    let sampled = Samples::take(&problem.model, wanted, (&inputs, &traces), budget)?;
     let Predicates { all: predicates, equal, values } = predicates::between(&mut problem, &words, &sampled, budget)?;
-    let guesses = guess(&problem, (&guards, &values), &predicates, (&traces, budget))?;
-    let mut houdini = Houdini::new(&mut problem, guesses);
+    let guesses = guess(&problem, (&guards, &values), &predicates, ((&inputs, &traces), budget))?;
+    let mut houdini = Houdini::new(&mut problem, guesses, inputs);
     houdini.settle(budget)?;
     let facts = houdini.surviving();
     let question = Question { model: &problem.model, bad: problem.bad, facts: &facts, equal: &equal };
@@ -113,7 +114,7 @@ fn guess(
     problem: &Problem,
     (guards, values): (&[Lit], &[Lit]),
     predicates: &[Lit],
-    (traces, budget): (&[Trace], &Budget),
+    (runs, budget): (Runs<'_>, &Budget),
 ) -> Result<Vec<Vec<Lit>>, Reason> {
     let model = &problem.model;
     let latches: Vec<Lit> = model.latches.iter().map(|l| l.lit).collect();
@@ -121,7 +122,7 @@ fn guess(
     nodes.extend(state_gates(model));
     nodes.sort_unstable();
     nodes.dedup();
-    let samples = Samples::take(model, Wanted { nodes: &nodes, ..Wanted::default() }, traces, budget)?;
+    let samples = Samples::take(model, Wanted { nodes: &nodes, ..Wanted::default() }, runs, budget)?;
     let (mut guesses, leaders) = classes(&samples, &nodes);
     let mut paired: Vec<Lit> = Vec::new();
     for &lit in guards.iter().chain(predicates).chain(&latches) {
@@ -151,13 +152,6 @@ fn guess(
         }
     }
     Ok(guesses)
-}
-
-/// Latches outside of words: states of an automaton, flags.
-fn guards(model: &Model, words: &[Vec<Lit>]) -> Vec<Lit> {
-    let inside: std::collections::BTreeSet<u32> = words.iter().flatten().map(|l| l.node()).collect();
-    let latches = model.latches.iter().map(|l| l.lit);
-    latches.filter(|l| !inside.contains(&l.node())).take(GUARDS).collect()
 }
 
 /// Guesses that nodes are constant, or equal to an earlier one up to inversion; and the nodes that are neither.

@@ -2,6 +2,7 @@
 
 use super::super::engine::{Budget, Reason};
 use super::super::simulate::{Random, Simulator};
+use super::inputs::Inputs;
 use crate::logic::aig::{Lit, Model, Trace};
 
 /// Values in the cycles that were looked at.
@@ -30,8 +31,17 @@ pub(super) struct Wanted<'a> {
 const EPISODES: [(usize, u32); 10] =
     [(12, 1), (12, 3), (40, 1), (60, 4), (120, 5), (300, 6), (300, 4), (600, 7), (1200, 8), (1200, 10)];
 
-/// Cycles behind the end of a run that is followed: its last inputs stay, so that what counts goes up to its bound.
+/// Cycles behind the end of a run that is followed: its last inputs stay, so that what counts goes up to its bound. After
+/// the first of them they stay exactly, until nothing changes any more.
 const BEYOND: usize = 1_100;
+const VARIED: usize = 64;
+
+/// How many cycles at the beginning of a run, and around its end, are looked at each.
+const FAR: usize = 48;
+const NEAR: usize = 12;
+
+/// What is known of runs: how to draw their inputs, and some that led somewhere.
+pub(super) type Runs<'a> = (&'a Inputs, &'a [Trace]);
 
 /// Runs whose words are kept.
 const LANES: u32 = 8;
@@ -41,7 +51,12 @@ impl Samples {
     ///
     /// # Errors
     /// If the budget ends before.
-    pub(super) fn take(model: &Model, wanted: Wanted<'_>, traces: &[Trace], budget: &Budget) -> Result<Self, Reason> {
+    pub(super) fn take(
+        model: &Model,
+        wanted: Wanted<'_>,
+        (inputs, traces): Runs<'_>,
+        budget: &Budget,
+    ) -> Result<Self, Reason> {
         let mut samples = Self {
             nodes: vec![Vec::new(); wanted.nodes.len()],
             valid: Vec::new(),
@@ -51,10 +66,10 @@ impl Samples {
         };
         let mut random = Random::new(1);
         for (cycles, calm) in EPISODES {
-            samples.episode(model, wanted, &mut random, (cycles, calm), budget);
+            samples.episode(model, wanted, (inputs, &mut random), (cycles, calm), budget);
         }
         for trace in traces {
-            samples.follow(model, wanted, &mut random, trace, budget);
+            samples.follow(model, wanted, (inputs, &mut random), trace, budget);
         }
         budget.check().map(|()| samples)
     }
@@ -63,7 +78,7 @@ impl Samples {
         &mut self,
         model: &Model,
         wanted: Wanted<'_>,
-        random: &mut Random,
+        (choice, random): (&Inputs, &mut Random),
         (cycles, calm): (usize, u32),
         budget: &Budget,
     ) {
@@ -75,17 +90,16 @@ impl Samples {
             .collect();
         run.start(|index| first[index]);
         let mut inputs: Vec<u64> = model.inputs.iter().map(|_| random.next()).collect();
+        choice.vary(&mut inputs, 0, u64::MAX, random);
         let mut alive = u64::MAX;
         for cycle in 0..cycles {
             if cycle > 0 {
                 run.step();
             }
             let before = inputs.clone();
-            for input in &mut inputs {
-                *input ^= (0..calm).fold(u64::MAX, |flips, _| flips & random.next());
-            }
+            choice.vary(&mut inputs, calm, u64::MAX, random);
             alive = constrained(model, &mut run, &mut inputs, &before, alive, random);
-            if cycle < 64 || cycle % 8 == 0 {
+            if cycle < 64 || cycle % if wanted.nodes.is_empty() { 8 } else { 32 } == 0 {
                 self.record(&run, wanted, alive);
             }
             if alive == 0 || budget.exhausted().is_some() {
@@ -95,24 +109,22 @@ impl Samples {
     }
 
     /// Runs like `trace`, and a little further: one is the same, in the others some values differ.
-    fn follow(&mut self, model: &Model, wanted: Wanted<'_>, random: &mut Random, trace: &Trace, budget: &Budget) {
-        let mut vary = |value: bool| {
-            let rare = (0..4).fold(!1, |bits, _| bits & random.next());
-            rare ^ if value { u64::MAX } else { 0 }
-        };
+    fn follow(
+        &mut self,
+        model: &Model,
+        wanted: Wanted<'_>,
+        (choice, random): (&Inputs, &mut Random),
+        trace: &Trace,
+        budget: &Budget,
+    ) {
+        let spread = |value: bool| if value { u64::MAX } else { 0 };
         let first: Vec<u64> = model
             .latches
             .iter()
             .zip(&trace.latches)
             .map(|(latch, &value)| match latch.initial {
-                Some(value) => {
-                    if value {
-                        u64::MAX
-                    } else {
-                        0
-                    }
-                }
-                None => vary(value),
+                Some(value) => spread(value),
+                None => spread(value) ^ (0..4).fold(!1, |bits, _| bits & random.next()),
             })
             .collect();
         let mut run = Simulator::new(model);
@@ -120,13 +132,18 @@ impl Samples {
         let mut alive = u64::MAX;
         let last = trace.inputs.last().into_iter().cycle();
         for (cycle, inputs) in trace.inputs.iter().chain(last).take(trace.inputs.len() + BEYOND).enumerate() {
-            if cycle > 0 {
-                run.step();
+            let is_still = cycle > trace.inputs.len() + VARIED;
+            if cycle > 0 && !run.step() && is_still {
+                break;
             }
-            let inputs: Vec<u64> = inputs.iter().map(|&value| vary(value)).collect();
+            let mut inputs: Vec<u64> = inputs.iter().map(|&value| spread(value)).collect();
+            if !is_still {
+                choice.vary(&mut inputs, 4, !1, random);
+            }
             run.evaluate(|index| inputs[index]);
             alive = model.constraints.iter().fold(alive, |all, &c| all & run.value(c));
-            if wanted.nodes.is_empty() || cycle < 64 || cycle % 8 == 0 {
+            let is_near = cycle < FAR || cycle + NEAR > trace.inputs.len() && cycle < trace.inputs.len() + NEAR;
+            if is_near || cycle % if wanted.nodes.is_empty() { 4 } else { 32 } == 0 {
                 self.record(&run, wanted, alive);
             }
             if alive & 1 == 0 || budget.exhausted().is_some() {

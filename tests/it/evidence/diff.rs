@@ -156,6 +156,15 @@ fn tables_are_compared_cell_by_cell() {
 }
 
 #[test]
+fn evidence_that_is_lost_is_no_patch() {
+    let verified = table(&[("1", &["F", "F"], "1")], "verified");
+    for (now, step) in [("violated", Step::Major), ("bounded", Step::Minor), ("verified", Step::Patch)] {
+        assert_eq!(compare(&verified, &table(&[("1", &["F", "F"], "1")], now)).advice, step, "{now}");
+    }
+    assert_eq!(compare(&verified, &Snapshot::default()).advice, Step::Major);
+}
+
+#[test]
 fn an_inserted_row_does_not_change_those_below_it() {
     let old = table(&[("1", &["F", "F"], "1"), ("2", &["T", "T"], "5")], "verified");
     let new = table(&[("1", &["F", "F"], "1"), ("2", &[">3", "<9"], "2"), ("3", &["T", "T"], "5")], "verified");

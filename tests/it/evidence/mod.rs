@@ -6,6 +6,7 @@ mod formats;
 mod outside;
 mod policy;
 mod records;
+mod report;
 mod samples;
 mod trace;
 mod walk;

@@ -116,7 +116,8 @@ impl Tree {
         match item {
             Item::Row(row, count) => !self.rows[row].omega && count >= self.rows[row].low,
             Item::Block(block, count) => !self.blocks[block].0.omega && count >= self.low(block),
-            Item::Begun(..) => true,
+            // An iteration without a cycle is over at once, but what is for ever is not left for that.
+            Item::Begun(block, _) => !self.blocks[block].0.omega,
         }
     }
 

@@ -642,6 +642,7 @@ fn of(entities: Vec<EntityView>) -> Book {
     Book {
         front: Front {
             title: "Handling station".to_owned(),
+            genre: "Reference manual".to_owned(),
             subtitle: "Pneumatic handling for the pick-and-place unit".to_owned(),
             version: "1.4.0".to_owned(),
             date: "2026-11-22".to_owned(),

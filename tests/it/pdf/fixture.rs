@@ -535,6 +535,7 @@ pub(super) fn book(entities: Vec<EntityView>) -> Book {
     Book {
         front: Front {
             title: "Pneumatics".to_owned(),
+            genre: "Reference manual".to_owned(),
             subtitle: "Cylinders and valves for TwinCAT 3".to_owned(),
             version: "3.1.0".to_owned(),
             date: "2026-11-22".to_owned(),

@@ -15,6 +15,7 @@ use rungbook::prove::bmc::Bmc;
 use rungbook::prove::engine::{Answer, Budget, Engine, Proof};
 use rungbook::prove::ic3::Ic3;
 use rungbook::prove::induction::Induction;
+use rungbook::prove::interpolation::Interpolation;
 use rungbook::prove::mine::Mine;
 use rungbook::prove::portfolio::Portfolio;
 use rungbook::prove::simulate::is_violation;
@@ -80,7 +81,14 @@ fn accepted(model: &Model, proof: &Proof) -> bool {
 }
 
 fn engines() -> Vec<Box<dyn Engine>> {
-    vec![Box::new(Bmc), Box::new(Induction), Box::new(Ic3), Box::new(Mine::default()), Box::new(Portfolio::default())]
+    vec![
+        Box::new(Bmc),
+        Box::new(Induction),
+        Box::new(Interpolation),
+        Box::new(Ic3),
+        Box::new(Mine::default()),
+        Box::new(Portfolio::default()),
+    ]
 }
 
 /// Another model with the same latches and inputs.

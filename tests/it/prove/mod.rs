@@ -17,6 +17,7 @@ use rungbook::prove::bmc::Bmc;
 use rungbook::prove::engine::{Answer, Budget, Engine, Hints};
 use rungbook::prove::ic3::Ic3;
 use rungbook::prove::induction::Induction;
+use rungbook::prove::interpolation::Interpolation;
 use rungbook::prove::mine::Mine;
 use rungbook::prove::portfolio::{self, Options, Portfolio};
 use words::Builder;
@@ -72,6 +73,13 @@ fn bounded_checking_agrees() {
 fn induction_agrees() {
     for seed in 0..cases(200) {
         assert!(compare(&Induction, seed, 4), "seed {seed}");
+    }
+}
+
+#[test]
+fn interpolation_agrees() {
+    for seed in 0..cases(500) {
+        assert!(compare(&Interpolation, seed, 8), "seed {seed}");
     }
 }
 
