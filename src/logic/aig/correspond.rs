@@ -158,6 +158,15 @@ fn refine(model: &Model, classes: &Classes, stop: &Stop) -> Option<Classes> {
                 for (at, split) in splits.iter_mut().enumerate() {
                     split.push(word(&words, model.latches[at].next.invert_if(initial(model, at))) & 1);
                 }
+                // What is not shown to be equal is parted, also where the run that was found does not tell it apart.
+                let is_parted = if class == CONSTANT {
+                    splits[index].iter().any(|word| *word != 0)
+                } else {
+                    splits[index] != splits[class]
+                };
+                if !is_parted {
+                    splits.iter_mut().enumerate().for_each(|(at, split)| split.push(u64::from(at == index)));
+                }
             }
         }
     }
