@@ -8,6 +8,7 @@ pub mod certificate;
 pub mod cone;
 pub mod eval;
 pub mod hash;
+pub mod read;
 pub mod sat;
 pub mod simplify;
 pub mod simulate;

@@ -138,36 +138,35 @@ fn refine(model: &Model, classes: &Classes, stop: &Stop) -> Option<Classes> {
     }
     let changed = |index: usize| through(&reduced, model.latches[index].next).invert_if(initial(model, index));
     let mut splits: Vec<Vec<u64>> = vec![Vec::new(); model.latches.len()];
+    let is_parted = |splits: &[Vec<u64>], index: usize, class: usize| match class {
+        CONSTANT => splits[index].iter().any(|word| *word != 0),
+        class => splits[index] != splits[class],
+    };
     for index in 0..classes.len() {
         let Some(class) = classes[index].filter(|class| *class != index) else { continue };
         let (own, other) = (changed(index), if class == CONSTANT { Lit::FALSE } else { changed(class) });
-        let apart = class != CONSTANT && splits[index] != splits[class];
-        let moved = class == CONSTANT && splits[index].iter().any(|word| *word != 0);
-        if own == other || apart || moved {
+        if own == other || is_parted(&splits, index, class) {
             continue;
         }
         let differ = aig.xor(own, other);
         let query = encoder.encode(&aig, differ, &mut solver);
         match solver.solve(&[query]) {
-            Some(false) => solver.add_clause(&[-query]),
+            Some(false) => {
+                solver.add_clause(&[-query]);
+                continue;
+            }
             None if stop.reached() => return None,
-            // Not shown in time: parted, by a pattern of their own.
-            None => splits.iter_mut().enumerate().for_each(|(at, split)| split.push(u64::from(at == index))),
+            None => {}
             Some(true) => {
                 let words = counterexample(model, &substitute, &encoder, &reduced, &solver);
                 for (at, split) in splits.iter_mut().enumerate() {
                     split.push(word(&words, model.latches[at].next.invert_if(initial(model, at))) & 1);
                 }
-                // What is not shown to be equal is parted, also where the run that was found does not tell it apart.
-                let is_parted = if class == CONSTANT {
-                    splits[index].iter().any(|word| *word != 0)
-                } else {
-                    splits[index] != splits[class]
-                };
-                if !is_parted {
-                    splits.iter_mut().enumerate().for_each(|(at, split)| split.push(u64::from(at == index)));
-                }
             }
+        }
+        // What is not shown to be equal in time is parted all the same, by a pattern of its own.
+        if !is_parted(&splits, index, class) {
+            splits.iter_mut().enumerate().for_each(|(at, split)| split.push(u64::from(at == index)));
         }
     }
     Some(grouped(model, |index| classes[index].map(|class| (class, splits[index].clone()))))
@@ -179,8 +178,7 @@ fn counterexample(model: &Model, substitute: &[Lit], encoder: &Encoder, reduced:
     let leaves = (0_u32..).take(model.aig.len()).filter(|node| model.aig.gate(*node) == Gate::Leaf).map(Lit::of);
     for leaf in leaves {
         let lit = through(reduced, through(substitute, leaf));
-        let value =
-            if lit.node() == 0 { lit == Lit::TRUE } else { encoder.known(lit).is_some_and(|lit| solver.value(lit)) };
+        let value = encoder.value(lit, solver);
         words[leaf.node() as usize] = u64::from(value);
     }
     model.aig.propagate(&mut words);

@@ -1,5 +1,6 @@
 //! And-inverter graphs with structural hashing, and transition systems over them: what engines work on.
 
+mod begin;
 mod constants;
 mod correspond;
 mod reduce;
@@ -187,35 +188,6 @@ impl Model {
         let holds = constraints.into_iter().fold(so_far, |all, constraint| model.aig.and(all, constraint));
         model.latches.push(Latch { lit: so_far, next: holds, initial: Some(true) });
         model.bad = self.bad.iter().map(|bad| model.aig.and(*bad, holds)).collect();
-        model
-    }
-
-    /// The same model with a first value for every latch, for tools that know no others: a cycle that counts for nothing
-    /// comes before all others, in which one more input for each latch without a first value gives that. The last latch
-    /// remembers that this cycle is over.
-    #[must_use]
-    pub fn with_first_values(&self) -> Self {
-        let mut model = self.clone();
-        if self.latches.iter().all(|latch| latch.initial.is_some()) {
-            return model;
-        }
-        let started = model.aig.leaf();
-        for latch in &mut model.latches {
-            let first = match latch.initial {
-                Some(value) => Lit::FALSE.invert_if(value),
-                None => {
-                    let input = model.aig.leaf();
-                    model.inputs.push(input);
-                    input
-                }
-            };
-            let (later, before) = (model.aig.and(started, latch.next), model.aig.and(!started, first));
-            latch.next = model.aig.or(later, before);
-            latch.initial = Some(latch.initial.unwrap_or(false));
-        }
-        model.latches.push(Latch { lit: started, next: Lit::TRUE, initial: Some(false) });
-        model.bad = self.bad.iter().map(|bad| model.aig.and(*bad, started)).collect();
-        model.constraints = self.constraints.iter().map(|held| model.aig.or(*held, !started)).collect();
         model
     }
 }

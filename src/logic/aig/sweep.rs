@@ -144,7 +144,7 @@ impl<'m> Sweeper<'m> {
         let mut words = vec![0; self.model.aig.len()];
         for (node, gate) in self.model.aig.gates.iter().enumerate() {
             if *gate == Gate::Leaf {
-                let value = self.encoder.known(self.map[node]).is_some_and(|lit| self.solver.value(lit));
+                let value = self.encoder.value(self.map[node], &self.solver);
                 let near = self.random.word() & self.random.word() & self.random.word() & !1;
                 words[node] = 0_u64.wrapping_sub(u64::from(value)) ^ near;
             }

@@ -35,6 +35,13 @@ impl Encoder {
         Some(if lit.inverted() { -var } else { var })
     }
 
+    /// The value of `lit` in the model that the solver found. A node that no literal stands for is false, and its complement
+    /// true.
+    #[must_use]
+    pub fn value(&self, lit: Lit, solver: &dyn Solver) -> bool {
+        self.known(lit).map_or(lit.inverted(), |lit| solver.value(lit))
+    }
+
     /// The literal that stands for `lit`, with the clauses for what is below it. A leaf that is not bound gets a variable.
     pub fn encode(&mut self, aig: &Aig, lit: Lit, solver: &mut dyn Solver) -> i32 {
         self.reserve(aig.len() - 1);

@@ -138,3 +138,14 @@ fn a_limit_of_conflicts_ends_one_call_only() {
         assert_eq!(solver.solve(&[]), Some(false));
     }
 }
+
+#[test]
+fn what_was_not_asked_about_has_a_value_and_its_complement_the_other() {
+    let mut aig = Aig::default();
+    let (asked, other) = (aig.leaf(), aig.leaf());
+    let (mut solver, mut encoder) = (Cadical::default(), Encoder::default());
+    let query = encoder.encode(&aig, !asked, &mut solver);
+    assert_eq!(solver.solve(&[query]), Some(true));
+    let values = [asked, !asked, other, !other, Lit::FALSE, Lit::TRUE].map(|lit| encoder.value(lit, &solver));
+    assert_eq!(values, [false, true, false, true, false, true]);
+}

@@ -1,5 +1,6 @@
 //! The room of terms, graphs and solvers, seen from outside.
 
+mod read;
 mod simplified;
 mod system;
 mod written;

@@ -45,7 +45,7 @@ impl Numbers {
 const WIDTHS: [u32; 5] = [8, 6, 1, 5, 32];
 
 /// A system that uses every operator on states and inputs of several widths.
-fn rich(seed: u64) -> System {
+pub(super) fn rich(seed: u64) -> System {
     let mut numbers = Numbers(seed | 1);
     let mut system = System::default();
     for (index, width) in [8, 1, 32].into_iter().enumerate() {

@@ -63,9 +63,79 @@ impl<'m> Question<'m> {
     }
 }
 
-/// Panics unless the proof, an invariant, is one.
-pub(crate) fn check_invariant(model: &Model, proof: &Proof) {
-    assert_eq!(proof.k, 1);
+/// Panics unless the proof is one.
+pub(crate) fn check_proof(model: &Model, proof: &Proof) {
+    check_invariant(model, proof);
+    if proof.k > 1 {
+        check_induction(model, proof);
+    }
+}
+
+/// A run of so many cycles: the solver, and what encodes each cycle.
+fn run(model: &Model, cycles: usize) -> (BatSat, Vec<Encoder>) {
+    let (mut solver, mut run) = (BatSat::default(), Vec::<Encoder>::new());
+    for _ in 0..cycles {
+        let mut encoder = Encoder::default();
+        if let Some(before) = run.last_mut() {
+            for latch in &model.latches {
+                let next = before.encode(&model.aig, latch.next, &mut solver);
+                encoder.bind(latch.lit, next);
+            }
+        }
+        for &constraint in &model.constraints {
+            let held = encoder.encode(&model.aig, constraint, &mut solver);
+            solver.add_clause(&[held]);
+        }
+        run.push(encoder);
+    }
+    (solver, run)
+}
+
+/// The step and the base of an induction over more than one cycle.
+fn check_induction(model: &Model, proof: &Proof) {
+    let bad = model.bad[0];
+    let (mut solver, mut cycles) = run(model, proof.k);
+    for latch in &model.latches {
+        let lit = cycles[0].encode(&model.aig, latch.lit, &mut solver);
+        if let Some(value) = latch.initial {
+            solver.add_clause(&[if value { lit } else { -lit }]);
+        }
+    }
+    for cycle in &mut cycles {
+        let bad = cycle.encode(&model.aig, bad, &mut solver);
+        assert_eq!(solver.solve(&[bad]), Some(false), "a run from a first state is bad");
+    }
+    let (mut solver, mut cycles) = run(model, proof.k + 1);
+    let mut states = Vec::new();
+    for cycle in &mut cycles {
+        let state: Vec<i32> = model.latches.iter().map(|l| cycle.encode(&model.aig, l.lit, &mut solver)).collect();
+        let mut question = Question { model, solver, encoder: Encoder::default() };
+        let clauses = question.clauses(proof, &state);
+        solver = question.solver;
+        clauses.iter().for_each(|clause| solver.add_clause(&[*clause]));
+        states.push(state);
+    }
+    let bad: Vec<i32> = cycles.iter_mut().map(|cycle| cycle.encode(&model.aig, bad, &mut solver)).collect();
+    bad[..proof.k].iter().for_each(|bad| solver.add_clause(&[-bad]));
+    let pairs = (0..proof.k).flat_map(|one| (0..one).map(move |other| (one, other))).filter(|_| proof.simple_path);
+    for (one, other) in pairs {
+        let differ: Vec<i32> =
+            states[one].iter().zip(&states[other]).map(|(&a, &b)| differs(&mut solver, a, b)).collect();
+        solver.add_clause(&differ);
+    }
+    assert_eq!(solver.solve(&[bad[proof.k]]), Some(false), "the induction has no step");
+}
+
+/// A literal that is true only where the two differ.
+fn differs(solver: &mut BatSat, a: i32, b: i32) -> i32 {
+    let own = solver.new_var();
+    solver.add_clause(&[-own, a, b]);
+    solver.add_clause(&[-own, -a, -b]);
+    own
+}
+
+/// Panics unless the clauses of the proof are inductive, and where it is an invariant alone, exclude what is bad.
+fn check_invariant(model: &Model, proof: &Proof) {
     let mut first = Question::new(model);
     let latches: Vec<i32> = model.latches.iter().map(|l| first.lit(l.lit)).collect();
     for (latch, &lit) in model.latches.iter().zip(&latches) {
@@ -82,8 +152,10 @@ pub(crate) fn check_invariant(model: &Model, proof: &Proof) {
     for clause in step.clauses(proof, &now) {
         step.solver.add_clause(&[clause]);
     }
-    let bad = step.lit(model.bad[0]);
-    assert_eq!(step.solver.solve(&[bad]), Some(false), "a bad cycle is inside");
+    if proof.k == 1 {
+        let bad = step.lit(model.bad[0]);
+        assert_eq!(step.solver.solve(&[bad]), Some(false), "a bad cycle is inside");
+    }
     let clauses = step.clauses(proof, &next);
     assert_eq!(step.some_is_false(&clauses), Some(false), "the invariant is left");
 }
