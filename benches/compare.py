@@ -6,12 +6,16 @@
 A PROJECT is a folder, or files joined by commas (PROGRAM.st,LIBRARY.st,TABLE.gtt), with `@4ms` behind it for a cycle time.
 `rungbook verify --aiger` writes one AIGER file a table; then, one after the other and on one core:
 
-* rungbook: `verify --fresh --jobs 1 --table NAME`, from the sources on, the second check of the certificate included;
+* rungbook: `verify --fresh --jobs 1 --table NAME`, what the command says of its time: translation, proof, and the second
+  check of the certificate, from the sources as they were read;
+* the same prover on the AIGER file (`cargo build --release --no-default-features --example aiger`), where it is found: it
+  then knows no more than the peers, neither words of several bits nor constraints;
 * ABC (Debian: berkeley-abc): `pdr`, `int`, `bmc3`, each alone;
 * rIC3 (crates.io), where it is found: its IC3.
 
-Times are seconds of CPU, which other work on the machine changes little. The ratio is rungbook's time to that of the
-fastest peer that decides the file; below 1 rungbook is ahead. Standard library only.
+Times are seconds, of CPU where another program is timed, which other work on the machine changes little. The ratios are
+rungbook's time and the bare prover's to that of the fastest peer that decides the file; below 1 rungbook is ahead.
+Standard library only.
 """
 
 import argparse
@@ -40,21 +44,26 @@ def timed(command, limit, cwd=None):
 
 
 def own(program, paths, options, table, limit):
-    command = [program, "verify", "--quiet", "--fresh", "--jobs", "1", "--format", "json", "--timeout", str(20 * limit)]
-    text, spent = timed(command + ["--table", table] + options + paths, limit)
+    command = [program, "verify", "--quiet", "--fresh", "--jobs", "1", "--format", "json", "--timeout", str(limit)]
+    done = subprocess.run(command + ["--table", table] + options + paths, capture_output=True, text=True, check=False)
     try:
-        found = json.loads(text)["tables"][0]
+        found = json.loads(done.stdout)["tables"][0]
     except (ValueError, KeyError, IndexError):
         return "", None
-    decided = found["verdict"] in ("verified", "violated")
-    return found["verdict"], spent if decided else None
+    return found["verdict"], found["seconds"] if found["verdict"] in ("verified", "violated") else None
+
+
+def prover(program, file, limit):
+    text, spent = timed([program, "--timeout", str(20 * limit), file], limit)
+    verdict = text.partition("\t")[0]
+    return verdict, spent if verdict in ("verified", "violated") else None
 
 
 def abc(program, file, engine, limit):
     text, spent = timed([program, "-c", f"read_aiger {file}; strash; {ABC[engine]}"], limit)
     if "Property proved" in text:
         return "verified", spent
-    if re.search(r"was asserted in frame|Output \d+ of miter .* was asserted|asserted", text):
+    if re.search(r"Output \d+ of miter .* was asserted in frame", text):
         return "violated", spent
     return "", None
 
@@ -86,6 +95,10 @@ def show(time):
     return "–" if time is None else f"{time:.2f}"
 
 
+def ratio(time, best):
+    return "–" if time is None or best is None else f"{time / max(best, 0.01):.1f}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rungbook", default="target/release/rungbook")
@@ -96,9 +109,11 @@ def main():
     program = os.path.abspath(args.rungbook)
     peer = shutil.which("berkeley-abc") or shutil.which("abc")
     other = shutil.which("rIC3") or shutil.which("ric3")
+    bare = os.path.join(os.path.dirname(program), "examples", "aiger")
+    bare = bare if os.path.exists(bare) else None
     engines = (list(ABC) if peer else []) + (["rIC3"] if other else [])
-    print("| table | verdict | rungbook | " + " | ".join(engines) + " | ratio |")
-    print("|---|---|---:|" + "---:|" * len(engines) + "---:|")
+    print("| table | verdict | rungbook | on the file | " + " | ".join(engines) + " | ratio | on the file |")
+    print("|---|---|---:|---:|" + "---:|" * len(engines) + "---:|---:|")
     for project in args.projects:
         place, _, cycle = project.partition("@")
         paths, options = place.split(","), ["--cycle", cycle] if cycle else []
@@ -106,15 +121,15 @@ def main():
         for short, file in obligations(program, paths, options):
             if args.only not in short or short not in known:
                 continue
-            verdict, time = own(program, paths, options, known[short], args.limit)
+            ours = [own(program, paths, options, known[short], args.limit)]
+            ours.append(prover(bare, file, args.limit) if bare else ("", None))
             peers = [abc(peer, file, engine, args.limit) for engine in engines if engine in ABC]
             peers += [ric3(other, file, args.limit)] if other else []
-            claims = {claim for claim, spent in peers if spent is not None} | ({verdict} if time is not None else set())
-            best = min((spent for _, spent in peers if spent is not None), default=None)
-            ratio = f"{time / max(best, 0.01):.1f}" if time is not None and best is not None else "–"
+            claims = {claim for claim, spent in ours + peers if spent is not None}
             word = "DISAGREE " + "/".join(sorted(claims)) if len(claims) > 1 else next(iter(claims), "open")
-            cells = [short.removesuffix(".aig"), word, show(time)] + [show(spent) for _, spent in peers] + [ratio]
-            print("| " + " | ".join(cells) + " |", flush=True)
+            best = min((spent for _, spent in peers if spent is not None), default=None)
+            times = [show(spent) for _, spent in ours + peers] + [ratio(spent, best) for _, spent in ours]
+            print("| " + " | ".join([short.removesuffix(".aig"), word] + times) + " |", flush=True)
 
 
 if __name__ == "__main__":

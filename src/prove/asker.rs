@@ -39,9 +39,30 @@ impl Asker {
         extra: Option<&[Lit]>,
         budget: u64,
     ) -> Option<bool> {
+        let about = assumptions.iter().chain(extra.unwrap_or(&[]));
+        self.ask_about(encoding, about, (assumptions, extra), budget)
+    }
+
+    /// One question, under switches, about what the extra clause rests on.
+    pub(crate) fn ask_assuming(
+        &mut self,
+        encoding: &Encoding,
+        switches: &[Lit],
+        extra: &[Lit],
+        budget: u64,
+    ) -> Option<bool> {
+        self.ask_about(encoding, extra.iter(), (switches, Some(extra)), budget)
+    }
+
+    fn ask_about<'l>(
+        &mut self,
+        encoding: &Encoding,
+        about: impl Iterator<Item = &'l Lit>,
+        (assumptions, extra): (&[Lit], Option<&[Lit]>),
+        budget: u64,
+    ) -> Option<bool> {
         let base = self.base.len();
-        let about = assumptions.iter().chain(extra.unwrap_or(&[])).map(|l| l.node());
-        encoding.close(about, &mut self.base, &mut self.marked);
+        encoding.close(about.map(|l| l.node()), &mut self.base, &mut self.marked);
         let answer = self.solver.solve(assumptions, extra, Some(&self.base), budget);
         for variable in self.base.drain(base..) {
             self.marked[variable as usize] = false;
@@ -59,22 +80,5 @@ impl Asker {
         let variable = self.solver.variable();
         self.solver.reserve(variable as usize + 1);
         Lit::of(variable)
-    }
-
-    /// One question, under switches, about what the extra clause rests on.
-    pub(crate) fn ask_assuming(
-        &mut self,
-        encoding: &Encoding,
-        switches: &[Lit],
-        extra: &[Lit],
-        budget: u64,
-    ) -> Option<bool> {
-        let base = self.base.len();
-        encoding.close(extra.iter().map(|l| l.node()), &mut self.base, &mut self.marked);
-        let answer = self.solver.solve(switches, Some(extra), Some(&self.base), budget);
-        for variable in self.base.drain(base..) {
-            self.marked[variable as usize] = false;
-        }
-        answer
     }
 }

@@ -26,9 +26,24 @@ impl Engine for Bmc {
     }
 }
 
-/// Ticks for a conflict of the solver, for a question, and for each node of the graph at each question.
-const CONFLICT: u64 = 3_000;
-const QUESTION: u64 = 20_000;
+/// What work costs, in ticks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Price {
+    /// A conflict of the solver, and so many nodes of the graph one tick more.
+    conflict: u64,
+    nodes: u64,
+    /// A question, which the solver prepares for.
+    question: u64,
+}
+
+impl Price {
+    /// Where questions are few, and most of the work is in them.
+    const FEW: Self = Self { conflict: 3_000, nodes: 16, question: 20_000 };
+    /// Where one question follows another, in engines that take turns: a tick takes about 25 ns.
+    pub(crate) const MANY: Self = Self { conflict: 500, nodes: 8, question: 100_000 };
+}
+
+/// Ticks for each node of the graph at each question.
 const NODE: u64 = 4;
 
 /// A solver with an unrolled graph, asked with limits that count.
@@ -36,6 +51,7 @@ pub(crate) struct Unrolled {
     pub(crate) graph: Unrolling,
     solver: Cadical,
     encoder: Encoder,
+    price: Price,
 }
 
 /// What came of a question.
@@ -49,7 +65,11 @@ pub(crate) enum Reply {
 impl Unrolled {
     pub(crate) fn new(model: &Model, from_first: bool) -> Self {
         let (graph, solver) = (Unrolling::new(model, from_first), Cadical::default());
-        Self { graph, solver, encoder: Encoder::default() }
+        Self { graph, solver, encoder: Encoder::default(), price: Price::FEW }
+    }
+
+    pub(crate) fn with_price(self, price: Price) -> Self {
+        Self { price, ..self }
     }
 
     /// What graph and solver hold in memory, roughly, in bytes; the factor was measured.
@@ -66,7 +86,7 @@ impl Unrolled {
     /// Whether `lit` can be true, asked with more and more work until `ticks` are gone.
     pub(crate) fn ask(&mut self, lit: Lit, ticks: &mut u64, budget: &Budget) -> Reply {
         let assumption = self.encoder.encode(&self.graph.aig, lit, &mut self.solver);
-        *ticks = ticks.saturating_sub(QUESTION + NODE * self.graph.aig.len() as u64);
+        *ticks = ticks.saturating_sub(self.price.question + NODE * self.graph.aig.len() as u64);
         self.solver.set_stop(budget.stop());
         let mut conflicts = 100;
         loop {
@@ -80,7 +100,7 @@ impl Unrolled {
                 return Reply::Stopped(reason);
             }
             let size = self.graph.aig.len() as u64;
-            *ticks = ticks.saturating_sub(u64::from(conflicts) * (CONFLICT + size / 16));
+            *ticks = ticks.saturating_sub(u64::from(conflicts) * (self.price.conflict + size / self.price.nodes));
             if *ticks == 0 {
                 return Reply::Pause;
             }
@@ -104,7 +124,7 @@ impl Unrolled {
         if lit.node() == 0 {
             return lit.inverted();
         }
-        self.encoder.known(lit).is_some_and(|l| self.solver.value(l))
+        self.encoder.value(lit, &self.solver)
     }
 }
 
@@ -117,7 +137,7 @@ pub(crate) struct BmcSearch {
 
 impl BmcSearch {
     pub(crate) fn new(problem: Problem) -> Self {
-        Self { unrolled: Unrolled::new(&problem.model, true), depth: 0, problem }
+        Self { unrolled: Unrolled::new(&problem.model, true).with_price(Price::MANY), depth: 0, problem }
     }
 }
 
@@ -133,7 +153,7 @@ impl Search for BmcSearch {
                 self.unrolled.require(&[holds]);
             }
             let bad = self.unrolled.graph.at(self.problem.bad, self.depth);
-            left = left.saturating_sub(QUESTION / 10);
+            left = left.saturating_sub(Price::FEW.question / 10);
             if bad != Lit::FALSE {
                 match self.unrolled.ask(bad, &mut left, budget) {
                     Reply::Yes => {

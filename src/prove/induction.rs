@@ -4,7 +4,7 @@
 //! by Eén and Sörensson (BMC 2003). That states along the step differ is required only of pairs that were found equal. Facts
 //! hold in every cycle of the step. Left out: uniqueness over the lifted part of states only.
 
-use super::bmc::{BmcSearch, Reply, Unrolled};
+use super::bmc::{BmcSearch, Price, Reply, Unrolled};
 use super::engine::{Answer, Budget, Engine, Progress, Search, bounded, drive};
 use super::problem::Problem;
 use crate::logic::aig::{Lit, Model};
@@ -39,7 +39,8 @@ pub(crate) struct InductionSearch {
 
 impl InductionSearch {
     pub(crate) fn new(problem: Problem) -> Self {
-        let (base, step) = (BmcSearch::new(problem.clone()), Unrolled::new(&problem.model, false));
+        let (base, step) =
+            (BmcSearch::new(problem.clone()), Unrolled::new(&problem.model, false).with_price(Price::MANY));
         Self { problem, base, step, k: 0, laid: 0, distinct: false, wanted: None }
     }
 

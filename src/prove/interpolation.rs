@@ -3,9 +3,9 @@
 //!
 //! McMillan, "Interpolation and SAT-based model checking" (CAV 2003). What is asked: whether a state of the set so far leads
 //! by one cycle, or none, (the first part) to a state from which `k` cycles are bad somewhere (the second). Where not, the
-//! interpolant is the next set; when nothing new comes, the set is an inductive invariant. Where so, and the set is more than the first
-//! states, it starts anew with a larger `k`. The parts share the latches between them and nothing else. Left out:
-//! reinforcement by clauses of other engines beyond the facts of the problem, and rewriting of the interpolants.
+//! interpolant is the next set; when nothing new comes, the set is an inductive invariant. Where so, and the set is more
+//! than the first states, it starts anew with a larger `k`. The parts share the latches between them and nothing else. Left
+//! out: reinforcement by clauses of other engines beyond the facts of the problem, and rewriting of the interpolants.
 
 use std::collections::BTreeSet;
 
@@ -111,17 +111,12 @@ impl InterpolationSearch {
     fn pose(&mut self) -> Query {
         let bad_later = self.later_part();
         let second = Encoding::new(&self.later.aig, &[bad_later]);
-        let spoken: BTreeSet<u32> = second.clauses().flatten().chain([&bad_later]).map(|l| l.node()).collect();
         let latches = &self.problem.model.latches;
         let borders: Vec<Lit> = latches.iter().map(|latch| self.later.at(latch.lit, 0)).collect();
-        let model = &self.problem.model;
+        let spoken: BTreeSet<u32> = second.clauses().flatten().chain([&bad_later]).map(|l| l.node()).collect();
         let linked: Vec<usize> = (0..latches.len()).filter(|&index| spoken.contains(&borders[index].node())).collect();
-        let mut roots: Vec<Lit> = linked.iter().map(|&index| latches[index].next).collect();
-        roots.push(self.reached);
-        roots.extend(&model.constraints);
-        roots.extend(self.problem.facts.iter().flatten());
-        roots.extend(model.inputs.iter().chain(latches.iter().map(|l| &l.lit)));
-        let first = Encoding::new(&model.aig, &roots);
+        let first = self.first_part(&linked);
+        let (model, latches) = (&self.problem.model, &self.problem.model.latches);
         // Whether the state stays as it is: so the next set holds the present one, and need not be joined with it.
         let stays = Lit::of(model.aig.len() as u32);
         let shared_from = stays.node() + 1;
@@ -159,6 +154,17 @@ impl InterpolationSearch {
         add(Part::Second, &[there(bad_later)]);
         self.work += count;
         Query { solver, shared_from, later_from }
+    }
+
+    /// The set with the constraints, the facts, and the next values of the latches that the second part speaks of.
+    fn first_part(&self, linked: &[usize]) -> Encoding {
+        let model = &self.problem.model;
+        let mut roots: Vec<Lit> = linked.iter().map(|&index| model.latches[index].next).collect();
+        roots.push(self.reached);
+        roots.extend(&model.constraints);
+        roots.extend(self.problem.facts.iter().flatten());
+        roots.extend(model.inputs.iter().chain(model.latches.iter().map(|l| &l.lit)));
+        Encoding::new(&model.aig, &roots)
     }
 
     /// That one of `k` cycles is bad, and the constraints and facts hold up to it.

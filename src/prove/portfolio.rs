@@ -1,12 +1,11 @@
 //! All engines on one property.
 //!
 //! With one job the order is fixed and shares are counted in work, not in time, so that the same model gives the same
-//! answer with the same evidence: a short search for a violation, a short turn of induction, interpolation and IC3, mining,
-//! then interpolation and IC3 as they stand, and IC3 and induction (which searches for violations on the side) with what
-//! was mined, in turns that grow. With two jobs induction runs beside mining and IC3, and the first answer counts: its kind
-//! is the same, its evidence may differ.
+//! answer with the same evidence: induction (which searches for violations on the side), IC3 and interpolation in turns that
+//! are short at first and double, mining, then interpolation and IC3 as they stand, and IC3 and induction with what was
+//! mined, in turns that grow. With two jobs induction runs beside mining and IC3, and the first answer counts: its kind is
+//! the same, its evidence may differ.
 
-use super::bmc::BmcSearch;
 use super::engine::{Answer, Budget, Cancel, Engine, Hints, Progress, Reason, Search, bounded, drive};
 use super::ic3::Ic3Search;
 use super::induction::InductionSearch;
@@ -44,12 +43,14 @@ pub struct Outcome {
 /// Somebody who is told how it goes, from any thread.
 pub type Listener<'a> = &'a (dyn Fn(Progress) + Sync);
 
-/// Work for the first search for violations, and for the turn of induction before mining.
-const LOOK: u64 = 4_000_000;
-const SHORT: u64 = 8_000_000;
-/// Work for the first turn of interpolation and IC3, which comes before mining, and for the first one behind it.
-const GLANCE: u64 = 2_000_000;
-const TURN: u64 = 8_000_000;
+/// Work for the turns before mining: the first, the last of all, and the one behind it of induction alone; and how much
+/// less IC3 and interpolation get in each, whose ticks take longer.
+const FIRST: u64 = 1_000_000;
+const LAST: u64 = 4_000_000;
+const ALONE: u64 = 8_000_000;
+const SHARE: u64 = 4;
+/// Work for the first turn behind mining.
+const TURN: u64 = 32_000_000;
 
 /// Decides the property.
 #[must_use]
@@ -84,6 +85,8 @@ fn enrich(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'
 /// A search that takes turns, until it cannot go on.
 struct Lane {
     engine: &'static str,
+    /// Its turns are so much shorter.
+    share: u64,
     /// `None` where the search ended without an answer that settles the question; then it holds no memory.
     search: Option<Box<dyn Search>>,
     depth: usize,
@@ -92,13 +95,17 @@ struct Lane {
 
 impl Lane {
     fn new(engine: &'static str, search: impl Search + 'static) -> Self {
-        Self { engine, search: Some(Box::new(search)), depth: 0, bytes: 0 }
+        Self { engine, share: 1, search: Some(Box::new(search)), depth: 0, bytes: 0 }
+    }
+
+    fn with_share(self, share: u64) -> Self {
+        Self { share, ..self }
     }
 
     /// One turn; the answer, where it settles the question.
     fn turn(&mut self, work: u64, budget: &Budget, listener: Listener<'_>) -> Option<Outcome> {
         let search = self.search.as_mut()?;
-        let answer = search.advance(work, budget, listener);
+        let answer = search.advance(work / self.share, budget, listener);
         (self.depth, self.bytes) = (self.depth.max(search.depth()), search.bytes());
         match answer {
             Some(answer) if answer.is_final() => return Some(Outcome { answer, engine: self.engine }),
@@ -122,25 +129,24 @@ fn round(lanes: &mut [Lane], work: u64, budget: &Budget, listener: Listener<'_>)
 }
 
 fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener<'_>) -> Outcome {
-    let mut look = Lane::new("bmc", BmcSearch::new(problem.clone()));
-    if let Some(outcome) = look.turn(LOOK, budget, listener) {
-        return outcome;
-    }
-    let safe = look.depth;
-    drop(look);
-    let mut short = Lane::new("induction", InductionSearch::new(problem.clone()));
-    if let Some(outcome) = short.turn(SHORT, budget, listener) {
-        return outcome;
-    }
-    drop(short);
     let mut early = [
-        Lane::new("interpolation", InterpolationSearch::new(problem.clone())),
-        Lane::new("ic3", Ic3Search::new(problem.clone())),
+        Lane::new("induction", InductionSearch::new(problem.clone())),
+        Lane::new("ic3", Ic3Search::new(problem.clone())).with_share(SHARE),
+        Lane::new("interpolation", InterpolationSearch::new(problem.clone())).with_share(SHARE),
     ];
-    if let Some(outcome) = round(&mut early, GLANCE, budget, listener) {
+    let mut turn = FIRST;
+    while turn <= LAST {
+        if let Some(outcome) = round(&mut early, turn, budget, listener) {
+            return outcome;
+        }
+        turn *= 2;
+    }
+    if let Some(outcome) = round(&mut early[..1], ALONE, budget, listener) {
         return outcome;
     }
-    let [interpolation, plain] = early;
+    let [short, plain, interpolation] = early;
+    let safe = short.depth;
+    drop(short);
     let held = interpolation.bytes + plain.bytes;
     let left = Budget { memory: budget.memory.saturating_sub(held), ..budget.clone() };
     let problem = match enrich(problem, hints, &left, listener) {
@@ -148,7 +154,8 @@ fn in_turns(problem: Problem, hints: &Hints, budget: &Budget, listener: Listener
         Err(outcome) => return outcome,
     };
     let (ic3, induction) = (Ic3Search::new(problem.clone()), InductionSearch::new(problem));
-    let mut lanes = [Lane::new("induction", induction), interpolation, Lane::new("ic3", ic3), plain];
+    let ic3 = Lane::new("ic3", ic3).with_share(SHARE);
+    let mut lanes = [Lane::new("induction", induction), interpolation, ic3, plain];
     to_the_end(&mut lanes, safe, budget, listener)
 }
 

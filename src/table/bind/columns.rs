@@ -49,8 +49,8 @@ impl Binder<'_> {
         let Subject::Variable(_) = column.subject else { return };
         let Operand::Typed(expr, _) = operand else { return };
         let mut role = None;
-        super::leaves(expr, &mut |leaf| {
-            if let Leaf::Variable { index, .. } = leaf {
+        expr.leaves(&mut |leaf| {
+            if let Leaf::Variable { index, .. } = *leaf {
                 role = Some(self.variables[index].role);
             }
         });

@@ -175,26 +175,14 @@ impl BoundTable {
         let cells = self.rows.iter().flat_map(|row| row.cells.iter().flatten());
         for cell in cells {
             for term in cell.distinct() {
-                leaves(term, &mut |leaf| {
-                    if let Leaf::Variable { index, ago } = leaf {
+                term.leaves(&mut |leaf| {
+                    if let Leaf::Variable { index, ago } = *leaf {
                         out[index] = out[index].max(ago);
                     }
                 });
             }
         }
         out
-    }
-}
-
-/// Calls `visit` with every leaf of an expression.
-pub fn leaves(term: &Term, visit: &mut dyn FnMut(Leaf)) {
-    use crate::semantics::expr::ExprKind;
-    match &term.kind {
-        ExprKind::Const(_) => {}
-        ExprKind::Read(leaf) | ExprKind::Address(leaf) => visit(*leaf),
-        ExprKind::Apply(_, operands) => operands.iter().for_each(|operand| leaves(operand, visit)),
-        ExprKind::AndThen(a, b) | ExprKind::OrElse(a, b) => [a, b].into_iter().for_each(|part| leaves(part, visit)),
-        ExprKind::If(a, b, c) => [a, b, c].into_iter().for_each(|part| leaves(part, visit)),
     }
 }
 
