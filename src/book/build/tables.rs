@@ -32,7 +32,8 @@ pub(crate) fn known(context: &Context<'_>, index: usize) -> VerdictView {
 pub(crate) fn verdict(table: &AttachedTable, answer: Option<&Answer>) -> VerdictView {
     if table.table.has_errors() {
         let note = "The table has errors; it gets no verdict.".to_owned();
-        return VerdictView { key: "error", label: "error".to_owned(), note, facts: Vec::new(), coverage: None };
+        let (key, label) = ("unusable", "unusable".to_owned());
+        return VerdictView { key, label, note, facts: Vec::new(), coverage: None };
     }
     let verdict = answer.map_or(&Verdict::Unverified, |answer| &answer.verdict);
     let note = match verdict {

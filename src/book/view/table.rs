@@ -64,7 +64,7 @@ pub struct AidView {
 /// A verdict as pages show it.
 #[derive(Clone, Debug, Serialize)]
 pub struct VerdictView {
-    /// `verified`, `violated`, `bounded`, `unsupported`, `unusable`, `stale`, `unverified`, `error`.
+    /// `verified`, `violated`, `bounded`, `unsupported`, `unusable`, `stale` or `unverified`.
     pub key: &'static str,
     /// The word.
     pub label: String,

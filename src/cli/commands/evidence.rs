@@ -49,6 +49,7 @@ fn pack(args: &BundleArgs) -> Result<Exit, Failure> {
     let (mut project, settings) = read;
     let stamp = stamp::stamp(&dir);
     let records = store::known(&dir, &project, &settings, &stamp)?;
+    pipeline::know(&mut project, &settings, records.iter().map(|(_, answer)| answer.clone()).collect());
     let offered = pipeline::snapshot::snapshot(&project, &settings, &stamp, &records);
     let old = args.previous.as_deref().map(|old| release::snapshot(old, &dir)).transpose()?;
     let changes = old.map(|old| diff::compare(&old, &offered));

@@ -174,7 +174,13 @@ pub(crate) fn numbers(project: &Project, records: &[(Record, Answer)]) -> Number
     for (record, _) in records {
         *verdicts.entry(record.verdict.word().to_owned()).or_default() += 1;
     }
-    let bare = |allowed: &&Allowed| allowed.allowance.owner.is_empty() || allowed.allowance.until.is_empty();
+    let place = |allowed: &Allowed| {
+        let place = allowed.allowance.place;
+        format!("{}:{}", project.files.get(place.file).path, project.files.line_column(place).line)
+    };
+    let is_bare = |allowed: &&Allowed| allowed.allowance.owner.is_empty() || allowed.allowance.until.is_empty();
+    let mut bare: Vec<String> = project.allowed.iter().filter(is_bare).map(place).collect();
+    bare.dedup();
     let proves_nothing = |answer: &Answer| {
         let coverage = answer.coverage.as_ref().filter(|_| answer.verdict.word() == "verified");
         coverage.is_some_and(|coverage| !coverage.vacuous.is_empty())
@@ -185,7 +191,7 @@ pub(crate) fn numbers(project: &Project, records: &[(Record, Answer)]) -> Number
         tables: records.len(),
         verdicts,
         vacuous: records.iter().filter(|(_, answer)| proves_nothing(answer)).count(),
-        allowed_without_owner: project.allowed.iter().filter(bare).count(),
+        allowed_without_owner: bare,
         breaking: None,
         lost: None,
     }

@@ -36,8 +36,8 @@ pub struct Numbers {
     pub verdicts: BTreeMap<String, usize>,
     /// Verified tables that prove nothing.
     pub vacuous: usize,
-    /// Findings that an allowance lets pass although it lacks an owner or a day.
-    pub allowed_without_owner: usize,
+    /// Where allowances stand that let findings pass although they lack an owner or a day.
+    pub allowed_without_owner: Vec<String>,
     /// Incompatible changes, where releases are compared.
     pub breaking: Option<usize>,
     /// Tables whose evidence was lost, where releases are compared.
@@ -73,17 +73,38 @@ pub fn judge(options: &Options, numbers: &Numbers) -> Vec<Line> {
     percent("documented", options.documented, numbers.documented, numbers.entities);
     percent("verified", options.verified, count("verified"), numbers.tables);
     let mut none = |key, asked: bool, found: Option<usize>| {
-        if asked && let Some(found) = found {
-            lines.push(Line { key, wanted: "none".to_owned(), found: found.to_string(), passed: found == 0 });
-        }
+        lines.extend(found.filter(|_| asked).map(|found| nothing(key, found)));
     };
     none("no-violated", options.no_violated, Some(count("violated")));
     none("no-stale", options.no_stale, Some(count("stale")));
     none("no-vacuous", options.no_vacuous, Some(numbers.vacuous));
-    none("no-suppressed-without-owner", options.no_suppressed_without_owner, Some(numbers.allowed_without_owner));
+    if options.no_suppressed_without_owner {
+        lines.push(without_owner(&numbers.allowed_without_owner));
+    }
+    let mut none = |key, asked: bool, found: Option<usize>| {
+        lines.extend(found.filter(|_| asked).map(|found| nothing(key, found)));
+    };
     none("no-breaking", options.no_breaking, numbers.breaking);
     none("no-lost-evidence", options.no_lost_evidence, numbers.lost);
     lines
+}
+
+fn nothing(key: &'static str, found: usize) -> Line {
+    Line { key, wanted: "none".to_owned(), found: found.to_string(), passed: found == 0 }
+}
+
+/// So many places are named; the others are counted.
+const NAMED: usize = 5;
+
+fn without_owner(places: &[String]) -> Line {
+    let mut line = nothing("no-suppressed-without-owner", places.len());
+    if !places.is_empty() {
+        let named = places[..places.len().min(NAMED)].join(", ");
+        let more = places.len().saturating_sub(NAMED);
+        let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+        line.found = format!("{}: {named}{rest}", places.len());
+    }
+    line
 }
 
 #[cfg(test)]
@@ -100,6 +121,20 @@ mod tests {
         let options = Options { verified: Some(100), ..Options::default() };
         assert!(!judge(&options, &numbers(999, 1000))[0].passed);
         assert!(judge(&options, &numbers(1000, 1000))[0].passed);
+    }
+
+    #[test]
+    fn allowances_without_an_owner_are_named() {
+        let options = Options { no_suppressed_without_owner: true, ..Options::default() };
+        let places: Vec<String> = (1..=7).map(|line| format!("a.st:{line}")).collect();
+        let found = |count: usize| {
+            let numbers = Numbers { allowed_without_owner: places[..count].to_vec(), ..Numbers::default() };
+            let line = judge(&options, &numbers).remove(0);
+            (line.passed, line.found)
+        };
+        assert_eq!(found(0), (true, "0".to_owned()));
+        assert_eq!(found(1), (false, "1: a.st:1".to_owned()));
+        assert_eq!(found(7), (false, "7: a.st:1, a.st:2, a.st:3, a.st:4, a.st:5 and 2 more".to_owned()));
     }
 
     #[test]

@@ -9,6 +9,7 @@ use std::sync::OnceLock;
 use proptest::prelude::*;
 use rungbook::evidence::bundle::archive;
 use rungbook::evidence::bundle::sign::{Public, Signer};
+use serde_json::Value;
 
 use super::bundle::{check_flip, signer};
 use super::rungbook;
@@ -80,6 +81,23 @@ fn a_bundle_of_each_sample_verifies_in_another_folder() {
     rungbook().current_dir(stranger.path()).args(CHECK).assert().code(1);
 }
 
+/// The manual in a bundle says of each table what its record says.
+#[test]
+fn the_manual_of_a_bundle_knows_the_verdicts() {
+    for (name, bytes) in bundles() {
+        let (files, _) = archive::read(bytes, &|_| 0);
+        let json = |bytes: &[u8]| serde_json::from_slice::<Value>(bytes).expect("JSON");
+        let mut counted = BTreeMap::<String, u64>::new();
+        for (_, record) in files.iter().filter(|(path, _)| path.starts_with("records/")) {
+            *counted.entry(json(record)["verdict"]["word"].as_str().expect("a word").to_owned()).or_default() += 1;
+        }
+        let totals = json(&files["manual/model.json"])["totals"]["verdicts"].clone();
+        let told: Vec<(String, u64)> = serde_json::from_value(totals).expect("verdicts");
+        assert_eq!(told, counted.into_iter().collect::<Vec<_>>(), "{name}");
+        assert!(*name == "papers" || told.iter().any(|(word, _)| word == "verified"), "{name}: {told:?}");
+    }
+}
+
 /// The report is a PDF/A-3 with the records inside it.
 #[test]
 #[cfg(feature = "pdf")]
@@ -94,7 +112,8 @@ fn the_report_of_a_bundle_is_archival() {
     let report = &files.iter().find(|(name, _)| name.as_str() == "report/evidence.pdf").expect("a report").1;
     let records = files.keys().filter(|name| name.starts_with("records/")).count();
     assert!(crate::archival::attached(report).is_none_or(|inside| records > 0 && inside >= records), "{records}");
-    if let Some(faults) = crate::archival::faults(report) {
+    let judges = [crate::archival::faults(report), crate::archival::preflight(report, false)];
+    for faults in judges.into_iter().flatten() {
         assert_eq!(faults, Vec::<String>::new());
     }
 }

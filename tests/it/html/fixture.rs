@@ -472,7 +472,7 @@ fn broken_table() -> TableView {
     let mut table = table(
         "Broken",
         9,
-        verdict("error", "The table cannot be read."),
+        verdict("unusable", "The table cannot be read."),
         columns,
         vec![row("1", &["TRUE", "1 +"], "1", "")],
     );
