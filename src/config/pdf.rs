@@ -6,8 +6,9 @@ use super::file::{ConfigError, PdfSection};
 use crate::render::pdf::{Date, Options, Paper, Standard};
 
 /// The names of the standards.
-const STANDARDS: [(&str, Standard); 6] = [
+const STANDARDS: [(&str, Standard); 7] = [
     ("pdf-1.7", Standard::Pdf17),
+    ("pdf-a-1b", Standard::A1b),
     ("pdf-a-2b", Standard::A2b),
     ("pdf-a-3b", Standard::A3b),
     ("pdf-a-3a", Standard::A3a),

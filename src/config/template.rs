@@ -68,7 +68,7 @@ pub const TEMPLATE: &str = r##"# rungbook.toml: how the manual of this tree is m
 [pdf]
 # enabled = true
 # paper = "a4"           # a4, b5, us-letter
-# standard = "pdf-1.7"   # pdf-1.7, pdf-a-2b, pdf-a-3b, pdf-a-3a, pdf-ua-1, pdf-a-3a-ua-1
+# standard = "pdf-1.7"   # pdf-1.7, pdf-a-1b, pdf-a-2b, pdf-a-3b, pdf-a-3a, pdf-ua-1, pdf-a-3a-ua-1
 # tagged = false         # structure for screen readers; several times as large
 # source = false         # show the source in the PDF, too
 "##;

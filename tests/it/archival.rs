@@ -1,9 +1,10 @@
-//! The main points of PDF/A-3 (ISO 19005-3), read off a file by `qpdf`. No veraPDF can be had where this is built; so this says that
-//! the points below hold, and not that a file was certified.
+//! PDF/A, judged by others: the main points of part 3 (ISO 19005-3) as `qpdf` tells the file, and Apache PDFBox Preflight, a checker
+//! of part 1 (Debian: `libpdfbox2-java`). No veraPDF can be had where this is built, so no file is certified for part 3.
 #![cfg_attr(not(feature = "pdf"), allow(dead_code, reason = "the PDF is behind a feature"))]
 
 use std::collections::BTreeSet;
 use std::io::Write;
+use std::path::Path;
 use std::process::Command;
 
 use base64::Engine;
@@ -92,6 +93,45 @@ pub(crate) fn faults(bytes: &[u8]) -> Option<Vec<String>> {
         forbidden(dict, &mut ask);
     }
     Some(out.into_iter().collect())
+}
+
+/// The jars of Preflight and of what it needs.
+const JARS: [&str; 7] =
+    ["preflight", "pdfbox2", "fontbox2", "xmpbox", "commons-logging", "javax.activation", "jaxb-api"];
+
+/// Codes of Preflight, or how its lines begin, for what PDF/A-1 forbids and later parts allow: colour profiles of version 4,
+/// attached files, another part in the metadata. It gives up after 10,000 lines, for which the profiles are enough.
+const LATER: [&str; 5] = [
+    "2.1.6 : Invalid graphics object, Invalid version of the ICCProfile",
+    "1.2.9 : Body Syntax error, EmbeddedFile entry is present in a FileSpecification",
+    "1.4.7 : Trailer Syntax error, EmbeddedFile entry is present in the Names",
+    "7.11.2 : Error on MetaData, part must be 1",
+    "-1 : Unknown error, Over 10000 errors",
+];
+/// What version 2.0.27 says of files that are in order: it does not follow references to destinations, which PDF allows
+/// everywhere (ISO 32000-1, 7.3.10), and does not read the extension schema by which PDF/UA is declared in the metadata.
+const MISTAKEN: [&str; 2] = [
+    "1.2.3 : Body Syntax error, Error: can't convert to Destination COSObject",
+    "7.3 : Error on MetaData, Cannot find a definition for the namespace http://www.aiim.org/pdfua/ns/id/",
+];
+
+/// What Preflight finds against PDF/A-1b; without `is_first`, not what parts 2 and 3 allow. `None` where it is not here.
+pub(crate) fn preflight(bytes: &[u8], is_first: bool) -> Option<Vec<String>> {
+    let jars = JARS.map(|name| format!("/usr/share/java/{name}.jar"));
+    let mut file = tempfile::Builder::new().suffix(".pdf").tempfile().expect("a file");
+    file.write_all(bytes).expect("written");
+    let mut command = Command::new("java");
+    command.args(["-cp", &jars.join(":"), "org.apache.pdfbox.preflight.Validator_A1b"]).arg(file.path());
+    let output = jars.iter().all(|jar| Path::new(jar).exists()).then(|| command.output().ok()).flatten();
+    let Some(output) = output else {
+        println!("skipped: PDFBox Preflight is not here");
+        return None;
+    };
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.starts_with("The file "), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    let known = if is_first { &[][..] } else { &LATER[..] };
+    let is_known = |line: &&str| known.iter().chain(&MISTAKEN).any(|begin| line.starts_with(begin));
+    Some(said.lines().skip(1).filter(|line| !line.is_empty() && !is_known(line)).map(str::to_owned).collect())
 }
 
 /// How many files are attached; `None` where this machine cannot tell.
@@ -222,4 +262,11 @@ fn each_point_is_missed_where_it_is_missing() {
         assert!(found.len() == 1 && found[0].contains(part), "without {from}: {found:?}");
     }
     assert_eq!(faults(&file(&small, "")).unwrap_or_default(), ["6.1.3 the file has no identifier"]);
+}
+
+#[test]
+fn preflight_sees_what_is_wrong() {
+    let small: Vec<String> = SMALL.map(str::to_owned).into();
+    let Some(found) = preflight(&file(&small, ""), false) else { return };
+    assert!(found.iter().any(|line| line.contains("The trailer dictionary doesn't contain ID")), "{found:?}");
 }

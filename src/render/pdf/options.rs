@@ -136,6 +136,8 @@ pub enum Standard {
     /// PDF 1.7.
     #[default]
     Pdf17,
+    /// PDF/A-1b, for archives that take nothing newer.
+    A1b,
     /// PDF/A-2b, for archives.
     A2b,
     /// PDF/A-3b, for archives, with attachments.
@@ -153,6 +155,7 @@ impl Standard {
     pub(super) fn list(self) -> &'static [PdfStandard] {
         match self {
             Self::Pdf17 => &[PdfStandard::V_1_7],
+            Self::A1b => &[PdfStandard::A_1b],
             Self::A2b => &[PdfStandard::A_2b],
             Self::A3b => &[PdfStandard::A_3b],
             Self::A3a => &[PdfStandard::A_3a],

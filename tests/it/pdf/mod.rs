@@ -139,12 +139,15 @@ fn the_same_book_makes_the_same_bytes() {
 
 #[test]
 fn archives_and_screen_readers_are_served() {
-    for standard in [Standard::A2b, Standard::A3b, Standard::A3a, Standard::Ua1, Standard::A3aUa1] {
+    for standard in [Standard::A1b, Standard::A2b, Standard::A3b, Standard::A3a, Standard::Ua1, Standard::A3aUa1] {
         let out = manual(&fixture::pneumatics(), &Options { standard, ..options() });
         assert!(out.pages > 10, "{standard:?}");
         if let (Standard::A3b | Standard::A3a | Standard::A3aUa1, Some(faults)) =
             (standard, crate::archival::faults(&out.bytes))
         {
+            assert_eq!(faults, Vec::<String>::new(), "{standard:?}");
+        }
+        if let Some(faults) = crate::archival::preflight(&out.bytes, standard == Standard::A1b) {
             assert_eq!(faults, Vec::<String>::new(), "{standard:?}");
         }
     }
