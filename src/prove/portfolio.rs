@@ -6,6 +6,7 @@
 //! mined, in turns that grow. With two jobs induction runs beside mining and IC3, and the first answer counts: its kind is
 //! the same, its evidence may differ.
 
+use super::bmc::BmcSearch;
 use super::engine::{Answer, Budget, Cancel, Engine, Hints, Progress, Reason, Search, bounded, drive};
 use super::ic3::Ic3Search;
 use super::induction::InductionSearch;
@@ -52,6 +53,9 @@ const SHARE: u64 = 4;
 /// Work for the first turn behind mining.
 const TURN: u64 = 32_000_000;
 
+/// Work for the search for a shorter run.
+const LOOK: u64 = 32_000_000;
+
 /// Decides the property.
 #[must_use]
 pub fn decide(model: &Model, property: usize, options: &Options, budget: &Budget, listener: Listener<'_>) -> Outcome {
@@ -63,6 +67,7 @@ pub fn decide(model: &Model, property: usize, options: &Options, budget: &Budget
     } else {
         in_turns(problem, &hints, budget, listener)
     };
+    let outcome = shortened(outcome, &reduced, budget, listener);
     let answer = reduced.lift(model, outcome.answer);
     match &answer {
         Answer::Violated(trace) if !is_violation(model, property, trace) => {
@@ -70,6 +75,15 @@ pub fn decide(model: &Model, property: usize, options: &Options, budget: &Budget
         }
         _ => Outcome { answer, engine: outcome.engine },
     }
+}
+
+/// A run that IC3 or interpolation found may be longer than it need be: the shortest one, where it is soon found.
+fn shortened(outcome: Outcome, reduced: &Reduced, budget: &Budget, listener: Listener<'_>) -> Outcome {
+    if !matches!(outcome.answer, Answer::Violated(_)) || outcome.engine == "induction" {
+        return outcome;
+    }
+    let mut look = Lane::new("bmc", BmcSearch::new(reduced.problem()));
+    look.turn(LOOK, budget, listener).filter(|found| matches!(found.answer, Answer::Violated(_))).unwrap_or(outcome)
 }
 
 /// The problem with what mining finds, or its answer.

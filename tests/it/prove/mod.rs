@@ -126,6 +126,21 @@ fn families_are_decided_with_evidence() {
 }
 
 #[test]
+fn the_portfolio_finds_shortest_runs() {
+    let mut violated = 0;
+    for seed in 0..cases(200) {
+        let model = random::model(seed, 8);
+        let Some(shortest) = explicit::shortest(&model) else { continue };
+        match portfolio::decide(&model, 0, &Options::default(), &Budget::seconds(20.0), &|_| ()).answer {
+            Answer::Violated(trace) => assert_eq!(trace.inputs.len(), shortest, "seed {seed}"),
+            other => panic!("seed {seed}: {other:?}"),
+        }
+        violated += 1;
+    }
+    assert!(violated > 20, "{violated}");
+}
+
+#[test]
 fn aiger_files_say_the_same() {
     for seed in 0..cases(200) {
         let model = random::model(seed, 6);
