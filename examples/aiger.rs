@@ -6,7 +6,12 @@
 //!
 //! Words are taken from names: `x[0]`, `x[1]` … are the bits of one.
 
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it is a program of its own")]
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    reason = "it is a program of its own, which prints, and reads the files that it is given"
+)]
 
 use std::collections::BTreeMap;
 use std::process::ExitCode;

@@ -142,8 +142,8 @@ fn refine(model: &Model, classes: &Classes, stop: &Stop) -> Option<Classes> {
         CONSTANT => splits[index].iter().any(|word| *word != 0),
         class => splits[index] != splits[class],
     };
-    for index in 0..classes.len() {
-        let Some(class) = classes[index].filter(|class| *class != index) else { continue };
+    for (index, class) in classes.iter().enumerate() {
+        let Some(class) = class.filter(|class| *class != index) else { continue };
         let (own, other) = (changed(index), if class == CONSTANT { Lit::FALSE } else { changed(class) });
         if own == other || is_parted(&splits, index, class) {
             continue;
