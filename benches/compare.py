@@ -9,7 +9,7 @@ A PROJECT is a folder, or files joined by commas (PROGRAM.st,LIBRARY.st,TABLE.gt
 * rungbook: `verify --fresh --jobs 1 --table NAME`, what the command says of its time: translation, proof, and the second
   check of the certificate, from the sources as they were read;
 * the same prover on the AIGER file (`cargo build --release --no-default-features --example aiger`), where it is found: it
-  then knows no more than the peers, neither words of several bits nor constraints;
+  then knows no more than the file says: words of several bits by their names, and no constraints;
 * ABC (Debian: berkeley-abc): `pdr`, `int`, `bmc3`, each alone;
 * rIC3 (crates.io), where it is found: its IC3.
 

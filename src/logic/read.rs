@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use super::aig::{Latch, Lit, Model};
+use super::aig::{Latch, Lit, Model, through};
 use super::write::Names;
 
 /// Why a file is not read.
@@ -115,11 +115,6 @@ fn literal(number: usize, end: usize, at: usize) -> Result<Lit, Malformed> {
         Ok(lit) if number < 2 * end => Ok(Lit(lit)),
         _ => Err(Malformed { at, message: format!("literal {number} is beyond the last variable") }),
     }
-}
-
-/// A literal of the file in the graph.
-fn through(nodes: &[Lit], lit: Lit) -> Lit {
-    nodes[lit.node() as usize].invert_if(lit.inverted())
 }
 
 /// The next values and first values of latches, in literals of the file.

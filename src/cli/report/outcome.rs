@@ -1,6 +1,6 @@
 //! What `check` found, once for all formats, so that their totals agree.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::audit;
 use crate::diagnostic::{Finding, Severity};
@@ -11,7 +11,7 @@ use crate::evidence::record::{Answer, Record};
 use crate::library::ItemKind;
 use crate::pipeline::{Project, Stamp};
 use crate::table::explain;
-use crate::text::{Files, LineColumn};
+use crate::text::{Files, LineColumn, Place};
 
 /// A finding, and whether it counts.
 pub(crate) struct Reported<'a> {
@@ -174,13 +174,10 @@ pub(crate) fn numbers(project: &Project, records: &[(Record, Answer)]) -> Number
     for (record, _) in records {
         *verdicts.entry(record.verdict.word().to_owned()).or_default() += 1;
     }
-    let place = |allowed: &Allowed| {
-        let place = allowed.allowance.place;
-        format!("{}:{}", project.files.get(place.file).path, project.files.line_column(place).line)
-    };
     let is_bare = |allowed: &&Allowed| allowed.allowance.owner.is_empty() || allowed.allowance.until.is_empty();
-    let mut bare: Vec<String> = project.allowed.iter().filter(is_bare).map(place).collect();
-    bare.dedup();
+    let bare: BTreeSet<Place> = project.allowed.iter().filter(is_bare).map(|allowed| allowed.allowance.place).collect();
+    let named =
+        |place: Place| format!("{}:{}", project.files.get(place.file).path, project.files.line_column(place).line);
     let proves_nothing = |answer: &Answer| {
         let coverage = answer.coverage.as_ref().filter(|_| answer.verdict.word() == "verified");
         coverage.is_some_and(|coverage| !coverage.vacuous.is_empty())
@@ -191,7 +188,7 @@ pub(crate) fn numbers(project: &Project, records: &[(Record, Answer)]) -> Number
         tables: records.len(),
         verdicts,
         vacuous: records.iter().filter(|(_, answer)| proves_nothing(answer)).count(),
-        allowed_without_owner: bare,
+        allowed_without_owner: bare.into_iter().map(named).collect(),
         breaking: None,
         lost: None,
     }

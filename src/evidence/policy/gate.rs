@@ -72,20 +72,17 @@ pub fn judge(options: &Options, numbers: &Numbers) -> Vec<Line> {
     };
     percent("documented", options.documented, numbers.documented, numbers.entities);
     percent("verified", options.verified, count("verified"), numbers.tables);
-    let mut none = |key, asked: bool, found: Option<usize>| {
-        lines.extend(found.filter(|_| asked).map(|found| nothing(key, found)));
-    };
-    none("no-violated", options.no_violated, Some(count("violated")));
-    none("no-stale", options.no_stale, Some(count("stale")));
-    none("no-vacuous", options.no_vacuous, Some(numbers.vacuous));
-    if options.no_suppressed_without_owner {
-        lines.push(without_owner(&numbers.allowed_without_owner));
-    }
-    let mut none = |key, asked: bool, found: Option<usize>| {
-        lines.extend(found.filter(|_| asked).map(|found| nothing(key, found)));
-    };
-    none("no-breaking", options.no_breaking, numbers.breaking);
-    none("no-lost-evidence", options.no_lost_evidence, numbers.lost);
+    let none = |key, asked: bool, found: Option<usize>| found.filter(|_| asked).map(|found| nothing(key, found));
+    let owners = options.no_suppressed_without_owner.then(|| without_owner(&numbers.allowed_without_owner));
+    let others = [
+        none("no-violated", options.no_violated, Some(count("violated"))),
+        none("no-stale", options.no_stale, Some(count("stale"))),
+        none("no-vacuous", options.no_vacuous, Some(numbers.vacuous)),
+        owners,
+        none("no-breaking", options.no_breaking, numbers.breaking),
+        none("no-lost-evidence", options.no_lost_evidence, numbers.lost),
+    ];
+    lines.extend(others.into_iter().flatten());
     lines
 }
 
