@@ -1,6 +1,6 @@
 //! Decides AIGER files as the prover decides the obligations of tables, for `benches/compare.py`:
 //!
-//!     cargo run --release --no-default-features --example aiger -- [--timeout SECONDS] [--engine NAME] FILE…
+//!     cargo run --release --no-default-features --example aiger -- [--timeout SECONDS] [--jobs N] [--engine NAME] FILE…
 //!
 //! A line a file: verdict, engine, file. Without a name it is the portfolio that decides.
 //!
@@ -42,6 +42,7 @@ fn words(model: &Model, names: &Names) -> Vec<Vec<Lit>> {
 /// What the command line says.
 struct Request {
     seconds: f64,
+    jobs: usize,
     engine: Option<Box<dyn Engine>>,
     files: Vec<String>,
 }
@@ -53,12 +54,16 @@ fn engine(name: &str) -> Option<Box<dyn Engine>> {
 }
 
 fn request(mut arguments: impl Iterator<Item = String>) -> Result<Request, String> {
-    let mut request = Request { seconds: 60.0, engine: None, files: Vec::new() };
+    let mut request = Request { seconds: 60.0, jobs: 1, engine: None, files: Vec::new() };
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--timeout" => {
                 let given = arguments.next().and_then(|text| text.parse().ok()).filter(|given| *given >= 0.0);
                 request.seconds = given.ok_or("--timeout takes seconds")?;
+            }
+            "--jobs" => {
+                let given = arguments.next().and_then(|text| text.parse().ok()).filter(|given| *given > 0);
+                request.jobs = given.ok_or("--jobs takes a number from 1 on")?;
             }
             "--engine" => {
                 let given = arguments.next().and_then(|name| engine(&name));
@@ -86,7 +91,7 @@ fn answer(file: &str, request: &Request) -> Result<String, String> {
     let (answer, engine) = if let Some(engine) = &request.engine {
         (engine.run(&model, 0, &budget, &|_| ()), engine.name())
     } else {
-        let options = Options { hints: Hints { words: words(&model, &names) }, ..Options::default() };
+        let options = Options { jobs: request.jobs, hints: Hints { words: words(&model, &names) } };
         let outcome = decide(&model, 0, &options, &budget, &|_| ());
         (outcome.answer, outcome.engine)
     };

@@ -93,6 +93,7 @@ impl Verification {
                 timeout: Duration::from_secs(positive("timeout", section.timeout, default.options.timeout.as_secs())?),
                 memory: positive("memory", section.memory, default.options.memory)?,
                 strict: section.strict.unwrap_or(false),
+                ..default.options
             },
             jobs: section.jobs.unwrap_or(0),
             coverage: section.coverage.unwrap_or(true),

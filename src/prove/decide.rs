@@ -56,7 +56,7 @@ pub fn decide(
     };
     let blasted = blast(&together(&product.system));
     let words = blasted.states.clone();
-    let options = portfolio::Options { hints: Hints { words }, ..portfolio::Options::default() };
+    let options = portfolio::Options { jobs: options.threads, hints: Hints { words } };
     let outcome = portfolio::decide(&blasted.model, 0, &options, &budget, listener);
     let ended = match outcome.answer {
         Answer::Bounded { reason, .. } | Answer::GaveUp(reason) => Some(reason),

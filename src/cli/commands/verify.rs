@@ -201,17 +201,21 @@ fn decide(job: &Job, chosen: &[usize], fresh: bool, progress: &Progress) -> Resu
     let done: Mutex<Vec<verdict::Line>> = Mutex::new(Vec::new());
     let failed: Mutex<Option<Failure>> = Mutex::new(None);
     let cancel = Cancel::default();
+    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let jobs = if job.settings.verify.jobs == 0 { cores() } else { job.settings.verify.jobs };
+    // Where there are fewer tables than threads, a table gets more than one.
+    let open = chosen.iter().filter(|index| !is_settled(job, &known[**index])).count();
+    let mut settings = job.settings.clone();
+    settings.verify.options.threads = (jobs / open.max(1)).max(1);
     let work = || {
         while let Some(index) = chosen.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let line = one(job, &known[*index], *index, &cancel, progress, &failed);
+            let line = one((job, &settings), &known[*index], *index, &cancel, progress, &failed);
             progress.event(pipeline::Event::Advance(1));
             if let Ok(mut done) = done.lock() {
                 done.push(line);
             }
         }
     };
-    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let jobs = if job.settings.verify.jobs == 0 { cores() } else { job.settings.verify.jobs };
     std::thread::scope(|scope| {
         for _ in 0..jobs.min(chosen.len()).max(1) {
             scope.spawn(work);
@@ -226,26 +230,31 @@ fn decide(job: &Job, chosen: &[usize], fresh: bool, progress: &Progress) -> Resu
     Ok(done)
 }
 
+/// Whether nothing is left to find out.
+fn is_settled(job: &Job, known: &(Record, Answer)) -> bool {
+    let wants_mutants = job.settings.verify.mutants
+        && known.1.coverage.as_ref().is_none_or(|coverage| coverage.mutants.is_none())
+        && known.1.verdict == crate::evidence::record::Verdict::Verified;
+    answer::is_settled(&known.1) && !wants_mutants
+}
+
 /// What the store knows of a table, or a new verdict.
 fn one(
-    job: &Job,
+    (job, settings): (&Job, &Settings),
     known: &(Record, Answer),
     table: usize,
     cancel: &Cancel,
     progress: &Progress,
     failed: &Mutex<Option<Failure>>,
 ) -> verdict::Line {
-    let wants_mutants = job.settings.verify.mutants
-        && known.1.coverage.as_ref().is_none_or(|coverage| coverage.mutants.is_none())
-        && known.1.verdict == crate::evidence::record::Verdict::Verified;
-    if answer::is_settled(&known.1) && !wants_mutants {
+    if is_settled(job, known) {
         return verdict::Line { table, answer: known.1.clone(), verified: None };
     }
     let unit = job.project.tables[table].table.name.clone();
     let listener = |_: usize, now: crate::prove::engine::Progress| {
         progress.message(&format!("{unit}: {} {}", now.engine, now.depth));
     };
-    let verified: Verified = pipeline::verify::verify(&job.project, &job.settings, table, cancel, &listener);
+    let verified: Verified = pipeline::verify::verify(&job.project, settings, table, cancel, &listener);
     let answer = answer::of(&job.project, &verified);
     if let Some(store) = &job.store {
         let record = Record::new(known.0.claim.clone(), &answer, known.0.origin.clone());

@@ -128,6 +128,29 @@ impl Aig {
         self.or(yes, no)
     }
 
+    /// A copy of a literal of another model's graph and of all below it, `inputs` being here what its inputs are there; of
+    /// other leaves there must be none below.
+    pub(crate) fn import(&mut self, other: &Model, inputs: &[Lit], lit: Lit) -> Lit {
+        let mut needed = vec![false; lit.node() as usize + 1];
+        needed[lit.node() as usize] = true;
+        for node in (1..=lit.node()).rev() {
+            if let (true, Gate::And(a, b)) = (needed[node as usize], other.aig.gate(node)) {
+                needed[a.node() as usize] = true;
+                needed[b.node() as usize] = true;
+            }
+        }
+        let mut map = vec![Lit::FALSE; needed.len()];
+        for (old, &new) in other.inputs.iter().zip(inputs).filter(|(old, _)| old.node() <= lit.node()) {
+            map[old.node() as usize] = new;
+        }
+        for node in (1..=lit.node()).filter(|&node| needed[node as usize]) {
+            if let Gate::And(a, b) = other.aig.gate(node) {
+                map[node as usize] = self.and(through(&map, a), through(&map, b));
+            }
+        }
+        through(&map, lit)
+    }
+
     /// What the node is.
     #[must_use]
     pub fn gate(&self, node: u32) -> Gate {

@@ -4,7 +4,7 @@
 const ABSENT: u32 = u32::MAX;
 
 /// The heap; activities are kept outside.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Heap {
     items: Vec<u32>,
     place: Vec<u32>,

@@ -10,7 +10,8 @@
 //! * a question may bring one **temporary clause**. It and all that was learnt from it are gone afterwards, so no
 //!   activation variables pile up and the solver is never restarted.
 //!
-//! Left out: preprocessing, and the bucket queue of the paper. Proofs are kept only where an interpolant is wanted. Limits are counted, not timed, so that the same
+//! Left out: preprocessing, and the bucket queue of the paper. Proofs are kept only where an interpolant is wanted; there the
+//! last variables are decided first, and as true, which was found to give interpolants that lead further. Limits are counted, not timed, so that the same
 //! questions always get the same answers (the clock only ends everything); `ticks` is the measure of work that everything above shares.
 
 mod clauses;
@@ -36,7 +37,7 @@ struct Watch {
 }
 
 /// The solver. Literals are those of the graph: a node's number is its variable's.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Solver {
     arena: Vec<u32>,
     originals: Vec<u32>,
@@ -87,7 +88,7 @@ impl Solver {
         self.level.push(0);
         self.reason.push(NONE);
         self.activity.push(0.0);
-        self.phase.push(false);
+        self.phase.push(self.log.is_some());
         self.heap.grow();
         self.inside.push(false);
         self.seen.push(false);
@@ -220,7 +221,9 @@ impl Solver {
         match domain {
             None => {
                 self.confined = false;
-                for var in 0..self.level.len() as u32 {
+                let keeps_proof = self.log.is_some();
+                let count = self.level.len() as u32;
+                for var in (0..count).map(|var| if keeps_proof { count - 1 - var } else { var }) {
                     if self.values[2 * var as usize] == 0 {
                         self.heap.insert(var, &self.activity);
                     }

@@ -27,7 +27,7 @@ struct Step {
 }
 
 /// The proof so far.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Log {
     steps: Vec<Step>,
     entries: Vec<u32>,
@@ -213,18 +213,23 @@ impl Solver {
     }
 
     /// The interpolant of the refutation that was found, in `graph`: `shared` gives its literals for the variables that
-    /// both parts speak of, `is_first` tells the variables that only the first one does. `None` without a refutation.
+    /// both parts speak of, `is_first` tells the variables that only the first one does. `None` without a refutation, and where
+    /// the graph gets more than `most` nodes.
     pub(crate) fn interpolant(
         &self,
         graph: &mut Aig,
         shared: &dyn Fn(u32) -> Option<Lit>,
         is_first: &dyn Fn(u32) -> bool,
+        most: usize,
     ) -> Option<Lit> {
         let log = self.log.as_ref()?;
         let empty = log.empty? as usize;
         let needed = log.needed();
         let mut values = vec![Lit::TRUE; empty + 1];
         for number in (0..=empty).filter(|&number| needed[number]) {
+            if graph.len() > most {
+                return None;
+            }
             let entries = log.entries(number as u32);
             values[number] = match log.steps[number].original {
                 Some(Part::Second) => Lit::TRUE,

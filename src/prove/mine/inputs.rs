@@ -12,6 +12,7 @@ use crate::logic::aig::{Model, Trace};
 const KEPT: usize = 64;
 
 /// Draws inputs for 64 runs at once.
+#[derive(Clone)]
 pub(super) struct Inputs {
     /// Indices of inputs that no constraint speaks of, and of the others.
     free: Vec<usize>,

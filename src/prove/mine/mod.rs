@@ -68,16 +68,20 @@ pub(crate) fn mine(mut problem: Problem, hints: &Hints, budget: &Budget) -> Resu
     let sampled = Samples::take(&problem.model, wanted, (&inputs, &traces), budget)?;
     let Predicates { all: predicates, equal, values } = predicates::between(&mut problem, &words, &sampled, budget)?;
     let guesses = guess(&problem, (&guards, &values), &predicates, ((&inputs, &traces), budget))?;
-    let mut houdini = Houdini::new(&mut problem, guesses, inputs);
-    houdini.settle(budget)?;
-    let facts = houdini.surviving();
-    let question = Question { model: &problem.model, bad: problem.bad, facts: &facts, equal: &equal };
-    let proved = match question.implied(&guards, budget) {
-        true => Some(facts.clone()),
-        false => houdini.imply_property(budget)?,
-    };
-    if let Some(clauses) = proved {
-        return Ok(Mined::Proved(Answer::Proved(problem.proof(&clauses, 1, false))));
+    // The second wave is twice the first or more, and seldom wanted.
+    let mut facts = Vec::new();
+    for wave in guesses {
+        let mut houdini = Houdini::new(&mut problem, [facts, wave].concat(), inputs.clone());
+        houdini.settle(budget)?;
+        facts = houdini.surviving();
+        let question = Question { model: &problem.model, bad: problem.bad, facts: &facts, equal: &equal };
+        let proved = match question.implied(&guards, budget) {
+            true => Some(facts.clone()),
+            false => houdini.imply_property(budget)?,
+        };
+        if let Some(clauses) = proved {
+            return Ok(Mined::Proved(Answer::Proved(problem.proof(&clauses, 1, false))));
+        }
     }
     let spoken: std::collections::BTreeSet<u32> = facts.iter().flatten().map(|l| l.node()).collect();
     problem.facts = facts;
@@ -109,13 +113,14 @@ fn state_gates(model: &Model) -> Vec<Lit> {
     gates
 }
 
-/// Clauses that no random run contradicts.
+/// Clauses that no random run contradicts, in two waves: classes, and what holds where a guard is true; then what holds where
+/// a word has one of few values, and implications between any two.
 fn guess(
     problem: &Problem,
     (guards, values): (&[Lit], &[Lit]),
     predicates: &[Lit],
     (runs, budget): (Runs<'_>, &Budget),
-) -> Result<Vec<Vec<Lit>>, Reason> {
+) -> Result<[Vec<Vec<Lit>>; 2], Reason> {
     let model = &problem.model;
     let latches: Vec<Lit> = model.latches.iter().map(|l| l.lit).collect();
     let mut nodes = latches.clone();
@@ -123,35 +128,37 @@ fn guess(
     nodes.sort_unstable();
     nodes.dedup();
     let samples = Samples::take(model, Wanted { nodes: &nodes, ..Wanted::default() }, runs, budget)?;
-    let (mut guesses, leaders) = classes(&samples, &nodes);
+    let (mut first, leaders) = classes(&samples, &nodes);
+    let spoken: Vec<Lit> = predicates.iter().chain(&latches).copied().collect();
+    let seen = |guard: &Lit| samples.both(&nodes, *guard, *guard);
+    for &guard in guards.iter().filter(|guard| seen(guard)) {
+        budget.check()?;
+        first.extend(implied(&samples, &nodes, guard, &spoken));
+    }
+    let mut second = Vec::new();
+    for &value in values.iter().filter(|value| seen(value)) {
+        budget.check()?;
+        second.extend(implied(&samples, &nodes, value, &spoken));
+    }
     let mut paired: Vec<Lit> = Vec::new();
-    for &lit in guards.iter().chain(predicates).chain(&latches) {
-        if leaders.contains(&lit) && paired.len() < PAIRED && !paired.contains(&lit) {
+    for &lit in spoken.iter().filter(|lit| leaders.contains(lit)) {
+        if paired.len() < PAIRED && !paired.contains(&lit) && !guards.contains(&lit) {
             paired.push(lit);
         }
     }
     for (i, &a) in paired.iter().enumerate() {
         budget.check()?;
-        for &b in &paired[..i] {
-            for (a, b) in [(a, b), (!a, b), (a, !b), (!a, !b)] {
-                if !samples.both(&nodes, !a, !b) {
-                    guesses.push(vec![a, b]);
-                }
-            }
+        for b in [a, !a] {
+            second.extend(implied(&samples, &nodes, b, &paired[..i]));
         }
     }
-    // Where a guard is true, what else is.
-    for &guard in guards.iter().chain(values).filter(|guard| samples.both(&nodes, **guard, **guard)) {
-        budget.check()?;
-        for &lit in predicates.iter().chain(&latches).filter(|lit| !(paired.contains(lit) && paired.contains(&guard))) {
-            for lit in [lit, !lit].into_iter().filter(|lit| lit.node() != guard.node()) {
-                if !samples.both(&nodes, guard, !lit) {
-                    guesses.push(vec![!guard, lit]);
-                }
-            }
-        }
-    }
-    Ok(guesses)
+    Ok([first, second])
+}
+
+/// What is always true where `guard` is: clauses with each of `lits`, or its inverse.
+fn implied(samples: &Samples, nodes: &[Lit], guard: Lit, lits: &[Lit]) -> Vec<Vec<Lit>> {
+    let both = lits.iter().filter(|lit| lit.node() != guard.node()).flat_map(|&lit| [lit, !lit]);
+    both.filter(|&lit| !samples.both(nodes, guard, !lit)).map(|lit| vec![!guard, lit]).collect()
 }
 
 /// Guesses that nodes are constant, or equal to an earlier one up to inversion; and the nodes that are neither.

@@ -161,12 +161,22 @@ fn aiger_files_say_the_same() {
     }
 }
 
+/// Engines that are ahead of the plan change nothing.
 #[test]
-fn one_job_gives_the_same_evidence_each_time() {
-    let system = minmax(5, false);
-    let (once, again) = (decide(&system, 1), decide(&system, 1));
-    assert!(once.is_final());
-    assert_eq!(once, again);
+fn one_thread_and_two_give_the_same_evidence() {
+    for system in [minmax(5, false), families::timer(16, 100, 4), families::counter(10, 300, 301)] {
+        let (once, again) = (decide(&system, 1), decide(&system, 2));
+        assert!(once.is_final());
+        assert_eq!(once, again);
+    }
+    for seed in 0..cases(300) {
+        let model = random::model(seed, 8);
+        let outcome = |jobs| {
+            let options = Options { jobs, hints: Hints::default() };
+            portfolio::decide(&model, 0, &options, &Budget::seconds(60.0), &|_| ())
+        };
+        assert_eq!(outcome(1), outcome(2), "seed {seed}");
+    }
 }
 
 #[test]
