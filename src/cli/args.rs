@@ -161,7 +161,7 @@ pub(crate) struct VerifyArgs {
     /// MiB of memory for one table [default: 4096, or as configured]
     #[arg(long, value_name = "MIB")]
     pub(crate) memory: Option<u64>,
-    /// How many tables at a time [default: one for each core]
+    /// How many threads: a table each, and two for a table where there are fewer of them [default: one for each core]
     #[arg(short, long, value_name = "N")]
     pub(crate) jobs: Option<usize>,
     /// Strict conformance for every table: the end is reached, unless the environment stays for ever where it may

@@ -30,7 +30,7 @@ pub const TEMPLATE: &str = r##"# rungbook.toml: how the manual of this tree is m
 [verify]
 # timeout = 60           # seconds for one table
 # memory = 4096          # MiB for one table
-# jobs = 0               # tables at a time; 0 is one for each core
+# jobs = 0               # threads, a table each; 0 is one for each core
 # strict = false         # strict conformance for every table: its end is reached
 # coverage = true        # find out what each proof covered
 # loop-limit = 1000      # how often a loop without constant bounds may be done

@@ -17,7 +17,7 @@ pub struct VerifySection {
     pub timeout: Option<u64>,
     /// MiB for one table.
     pub memory: Option<u64>,
-    /// How many tables at a time.
+    /// How many threads: a table each, and two for a table where there are fewer of them.
     pub jobs: Option<usize>,
     /// Whether what a proof covered is found out.
     pub coverage: Option<bool>,
@@ -47,7 +47,7 @@ pub struct FixedSection {
 pub struct Verification {
     /// The prover's own options.
     pub options: Options,
-    /// How many tables at a time.
+    /// How many threads: a table each, and two for a table where there are fewer of them.
     pub jobs: usize,
     /// Whether what a proof covered is found out.
     pub coverage: bool,

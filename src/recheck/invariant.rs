@@ -27,6 +27,9 @@ pub enum Rejection {
     OutOfTime,
 }
 
+/// How many clauses are asked about at once.
+const BLOCK: usize = 64;
+
 /// A system in clauses, cycle by cycle.
 pub(super) struct Unrolled<'s> {
     pub(super) system: &'s System,
@@ -126,6 +129,22 @@ impl<'s> Unrolled<'s> {
         }
     }
 
+    /// Whether no model violates any of the clauses, asked for some at a time; what is said where one does.
+    fn refute_all(&mut self, clauses: &[Vec<Lit>], otherwise: impl Fn(usize) -> Rejection) -> Result<(), Rejection> {
+        for (at, block) in clauses.chunks(BLOCK).enumerate() {
+            let violated: Vec<Vec<Lit>> = block.iter().map(|clause| clause.iter().map(|&lit| !lit).collect()).collect();
+            let each: Vec<Lit> = violated.iter().map(|lits| self.gates.all(lits)).collect();
+            let any = self.gates.any(&each);
+            if self.gates.satisfiable(&[any]) == Some(false) {
+                continue;
+            }
+            for (index, lits) in violated.iter().enumerate() {
+                self.refute(lits, otherwise(at * BLOCK + index))?;
+            }
+        }
+        Ok(())
+    }
+
     fn states_differ(&mut self, one: usize, other: usize) -> Lit {
         let mut differences = Vec::new();
         for state in &self.system.states {
@@ -166,22 +185,16 @@ fn well_formed(system: &System, certificate: &Certificate) -> bool {
 fn initial(system: &System, certificate: &Certificate, stop: &Stop) -> Result<(), Rejection> {
     let mut first = Unrolled::new(system, stop);
     first.start();
-    for clause in first.invariant(0, certificate) {
-        let violated: Vec<Lit> = clause.into_iter().map(|lit| !lit).collect();
-        first.refute(&violated, Rejection::NotInitial)?;
-    }
-    Ok(())
+    let clauses = first.invariant(0, certificate);
+    first.refute_all(&clauses, |_| Rejection::NotInitial)
 }
 
 fn inductive(system: &System, certificate: &Certificate, stop: &Stop) -> Result<(), Rejection> {
     let mut pair = Unrolled::new(system, stop);
     pair.assume_invariant(0, certificate);
     pair.step();
-    for (index, clause) in pair.invariant(1, certificate).into_iter().enumerate() {
-        let violated: Vec<Lit> = clause.into_iter().map(|lit| !lit).collect();
-        pair.refute(&violated, Rejection::NotInductive(index))?;
-    }
-    Ok(())
+    let clauses = pair.invariant(1, certificate);
+    pair.refute_all(&clauses, Rejection::NotInductive)
 }
 
 fn safe(system: &System, certificate: &Certificate, stop: &Stop) -> Result<(), Rejection> {

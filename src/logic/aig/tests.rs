@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use proptest::prelude::*;
 
-use super::{Latch, Lit, Model, Reduced, Trace, cone, constants, correspond, sweep, word};
+use super::{Aig, Latch, Lit, Model, Reduced, Trace, cone, constants, correspond, sweep, word};
 use crate::logic::sat::Stop;
 
 const INPUTS: usize = 2;
@@ -186,4 +186,35 @@ fn equal_functions_become_one_node() {
     let reduced = sweep(&model, &Stop::default());
     assert_eq!(reduced.model.bad[0], Lit::FALSE);
     assert!(reduced.model.aig.len() <= 9 + 3 * 7);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(cases()))]
+    #[test]
+    fn a_copy_in_another_graph_is_the_same_function(
+        gates in proptest::collection::vec((0_usize..200, 0_usize..200, 0_u8..4), 1..24),
+        roots in proptest::collection::vec(0_usize..200, LATCHES + 3),
+        shift in 0..INPUTS + LATCHES,
+    ) {
+        let all = Model { latches: Vec::new(), ..model(&gates, &roots, &[0; LATCHES]) };
+        let leaves: Vec<Lit> = (1_u32..).map(Lit::of).take(INPUTS + LATCHES).collect();
+        let other = Model { inputs: leaves.clone(), ..all };
+        let mut aig = Aig::default();
+        let mut own: Vec<Lit> = leaves.iter().map(|_| aig.leaf()).collect();
+        own.rotate_left(shift);
+        let copies: Vec<Lit> = other.bad.iter().map(|&bad| aig.import(&other, &own, bad)).collect();
+        for round in 0..4_u64 {
+            let (mut there, mut here) = (vec![0; other.aig.len()], vec![0; aig.len()]);
+            for (index, (old, new)) in leaves.iter().zip(&own).enumerate() {
+                let bits = (round * 64..).take(64).map(|number| number >> index & 1);
+                let bits = bits.enumerate().map(|(lane, bit)| bit << lane).sum();
+                (there[old.node() as usize], here[new.node() as usize]) = (bits, bits);
+            }
+            other.aig.propagate(&mut there);
+            aig.propagate(&mut here);
+            for (bad, copy) in other.bad.iter().zip(&copies) {
+                prop_assert_eq!(word(&there, *bad), word(&here, *copy));
+            }
+        }
+    }
 }

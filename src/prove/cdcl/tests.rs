@@ -89,8 +89,9 @@ fn interpolants_lie_between_the_parts() {
             let at = variable as usize;
             (own..shared).contains(&at).then(|| leaves[at - own])
         };
-        let between =
-            solver.interpolant(&mut graph, &leaf, &|variable| (variable as usize) < own, usize::MAX).expect("it is refuted");
+        let between = solver
+            .interpolant(&mut graph, &leaf, &|variable| (variable as usize) < own, usize::MAX)
+            .expect("it is refuted");
         for bits in 0..1u32 << all {
             let holds = |clauses: &[Vec<Lit>]| {
                 clauses.iter().all(|c| c.iter().any(|l| (bits >> l.node() & 1 == 1) != l.inverted()))
