@@ -1,10 +1,10 @@
 //! All engines on one property.
 //!
 //! They take turns by a plan that is counted in work and not in time: induction (which searches for violations on the side),
-//! IC3 and interpolation in turns that are short at first and double, then mining, then interpolation and IC3 as they stand,
-//! and induction and IC3 with what was mined, in turns that grow. Two threads take the same turns as one, the second one
-//! ahead of the plan, and the answer of the earliest turn counts. So the same model gets the same answer with the same
-//! evidence, whoever takes part.
+//! IC3 and interpolation in turns that are short at first and grow; for a large model a longer one of interpolation; mining;
+//! then, in turns that grow, induction and IC3 with what was mined, and interpolation and IC3 as they stand. Two threads take
+//! the same turns as one, the second one ahead of the plan, and the answer of the earliest turn counts. So the same model gets
+//! the same answer with the same evidence, whoever takes part.
 
 mod board;
 mod plan;
