@@ -95,22 +95,28 @@ enum Came {
     Settled(Outcome),
 }
 
-/// A turn that is being taken; however it ends, the others hear of it.
+/// A turn that is being taken. Where it ends without a word, because something panicked, the others do not wait for it.
 struct Taken<'t> {
     board: &'t Board<'t>,
     index: usize,
     name: Name,
+    is_over: bool,
+}
+
+impl Taken<'_> {
+    fn end(mut self, came: Came) {
+        let mut state = self.board.lock();
+        state.leave(self.index, self.name);
+        state.put((self.index, self.name, self.board.plan.comes_again(self.index)), came);
+        self.is_over = true;
+    }
 }
 
 impl Drop for Taken<'_> {
     fn drop(&mut self) {
-        let mut state = self.board.lock();
-        state.running.retain(|(index, _)| *index != self.index);
-        if matches!(state.places[self.name as usize], Place::Busy) {
-            state.places[self.name as usize] = Place::Over;
-            state.bytes[self.name as usize] = 0;
+        if !self.is_over {
+            self.board.lock().leave(self.index, self.name);
         }
-        drop(state);
         self.board.changed.notify_all();
     }
 }
@@ -170,10 +176,8 @@ impl<'b> Board<'b> {
                     let (budget, cancel) = self.share(&state, turn.name).race();
                     state.running.push((index, cancel));
                     drop(state);
-                    let taken = Taken { board: self, index, name: turn.name };
-                    let came = self.run(turn, lane, &budget);
-                    self.lock().put((index, turn.name, self.plan.comes_again(index)), came);
-                    drop(taken);
+                    let taken = Taken { board: self, index, name: turn.name, is_over: false };
+                    taken.end(self.run(turn, lane, &budget));
                     state = self.lock();
                 }
                 None if state.running.is_empty() => break,
@@ -215,7 +219,9 @@ impl State {
         let mut at = 0;
         loop {
             if at == self.waiting.len() {
-                let goes_on = self.places.iter().any(|place| matches!(place, Place::Free(_)));
+                // Who is free has another turn, and so has mining until it was done.
+                let is_open = matches!(self.places[Name::Mine as usize], Place::Absent);
+                let goes_on = is_open || self.places.iter().any(|place| matches!(place, Place::Free(_)));
                 if !goes_on || self.seen >= end {
                     return None;
                 }
@@ -241,6 +247,13 @@ impl State {
                 }
             }
         }
+    }
+
+    /// Ends a turn; whoever had it is over, unless it is put back.
+    fn leave(&mut self, index: usize, name: Name) {
+        self.running.retain(|(other, _)| *other != index);
+        self.places[name as usize] = Place::Over;
+        self.bytes[name as usize] = 0;
     }
 
     fn put(&mut self, (index, name, comes_again): (usize, Name, bool), came: Came) {
