@@ -3,11 +3,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use super::Project;
 use super::ready::Ready;
 use crate::evidence::coverage::{Coverage, Fate, FreeCells, Item, Kind, Stretch, Witness};
 use crate::library::{ItemId, Section, TypeUse};
+use crate::logic::certificate::Certificate;
 use crate::machine::program::SlotId;
 use crate::machine::{interpret, translate};
 use crate::prove::cover::probe::{Probed, Way, probed};
@@ -22,6 +24,16 @@ use crate::table::Table;
 use crate::table::decide::free::free;
 use crate::text::Place;
 
+/// What the search for the verdict brought to light.
+pub(super) struct Known<'a> {
+    /// Runs that lead somewhere.
+    pub(super) runs: Vec<Choice>,
+    /// The proof, if it is about the obligation's own system.
+    pub(super) invariant: Option<&'a Certificate>,
+    /// How long the check of a proof may take.
+    pub(super) patience: Duration,
+}
+
 /// What the proof of a table covered, and the runs that show it.
 ///
 /// # Errors
@@ -30,12 +42,13 @@ pub(super) fn cover(
     project: &Project,
     table: &Table,
     ready: &Ready,
+    known: &Known<'_>,
     cancel: &Cancel,
 ) -> Result<(Coverage, Vec<Choice>), String> {
     let counted = counted(project, ready.program.unit);
     let probed = probed(&ready.program, &|item| counted.contains(&item));
     let mut work = Work { project, table, ready, probed, inputs: Vec::new() };
-    let found = if ready.automaton.may_be_empty { None } else { Some(work.search(cancel)?) };
+    let found = if ready.automaton.may_be_empty { None } else { Some(work.search(known, cancel)?) };
     let items = work.items(found.as_ref());
     let witnesses = found.iter().flat_map(|found| &found.runs).map(|run| work.witness(run)).collect();
     let mut coverage = Coverage {
@@ -75,7 +88,7 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Asks, and confirms the answer. The targets are the rows, then the probes.
-    fn search(&mut self, cancel: &Cancel) -> Result<Reached, String> {
+    fn search(&mut self, known: &Known<'_>, cancel: &Cancel) -> Result<Reached, String> {
         let ready = self.ready;
         let options = translate::Options { loop_limit: ready.loop_limit, ..translate::Options::default() };
         let translated = translate::translate(&self.probed.program, &options)
@@ -95,18 +108,21 @@ impl Work<'_> {
             rows[leaf.row] = system.pool.or(rows[leaf.row], *live);
         }
         let probes = self.probed.slots().map(|slot| translated.end[slot.0 as usize]);
+        let invariant = known.invariant.and_then(|proof| proof.moved(ready.system(), &system));
         let targets = rows.into_iter().chain(probes).map(|target| system.pool.and(target, covered)).collect();
-        let question = Question { system, covered, targets, globals: made.globals };
+        let question =
+            Question { system, covered, targets, globals: made.globals, known: known.runs.clone(), invariant };
         self.inputs = made.inputs;
         let found = reach(&question, &Effort::default(), cancel);
-        self.confirm(&question, &found)?;
+        self.confirm(&question, &found, known.patience)?;
         Ok(found)
     }
 
     /// Plays the runs and checks the proofs.
-    fn confirm(&self, question: &Question, found: &Reached) -> Result<(), String> {
+    fn confirm(&self, question: &Question, found: &Reached, patience: Duration) -> Result<(), String> {
         let seen = found.runs.iter().map(|run| Ok(self.seen(&self.played(run)?)));
         let seen: Vec<Vec<BTreeSet<usize>>> = seen.collect::<Result<_, String>>()?;
+        let mut proofs: Vec<(&Certificate, Vec<usize>)> = Vec::new();
         for (target, fate) in found.fates.iter().enumerate() {
             match fate {
                 Found::Reached { run, cycle } => {
@@ -115,17 +131,19 @@ impl Work<'_> {
                         return Err(format!("a run that is said to cover something does not (target {target})"));
                     }
                 }
-                Found::Never(certificate) => {
-                    let until = std::time::Instant::now() + std::time::Duration::from_secs(30);
-                    let stop: invariant::Stop = Arc::new(move || std::time::Instant::now() >= until);
-                    invariant::check(&never(question, target), certificate, &stop).map_err(|rejection| {
-                        format!(
-                            "the proof that something is never reached was rejected: {rejection:?} (target {target})"
-                        )
-                    })?;
-                }
+                Found::Never(proof) => match proofs.iter_mut().find(|(known, _)| **known == **proof) {
+                    Some((_, targets)) => targets.push(target),
+                    None => proofs.push((proof, vec![target])),
+                },
                 Found::NotWithin(_) => {}
             }
+        }
+        for (proof, targets) in proofs {
+            let start = Instant::now();
+            let stop: invariant::Stop = Arc::new(move || start.elapsed() >= patience);
+            invariant::check(&never(question, &targets), proof, &stop).map_err(|rejection| {
+                format!("the proof that something is never reached was rejected: {rejection:?} (targets {targets:?})")
+            })?;
         }
         Ok(())
     }

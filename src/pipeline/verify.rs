@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use super::cover::Known;
 use super::ready::{Ready, cycle_time, prepare};
 use super::{Project, artefact, cover, mutants};
 use crate::config::Settings;
@@ -97,11 +98,16 @@ pub fn verify(
             made.bound = Some(ready.table.clone());
             made.program = Some(ready.program.clone());
             made.input_slots.clone_from(&ready.product.inputs);
-            judge(&ready, settings, &mut made, (start, cancel), &|progress| listener(table, progress));
+            let runs = judge(&ready, settings, &mut made, (start, cancel), &|progress| listener(table, progress));
             made.time = start.elapsed();
-            if matches!(made.verdict, Verdict::Verified(_)) && settings.verify.coverage {
+            if let Verdict::Verified(proof) = &made.verdict
+                && settings.verify.coverage
+            {
                 listener(table, Progress { engine: "coverage", depth: 0, clauses: 0 });
-                match covered(project, attached, &ready, settings, cancel) {
+                // That of strict conformance is about another system.
+                let known =
+                    Known { runs, invariant: ready.strict.is_none().then_some(proof), patience: patience(settings) };
+                match covered(project, attached, &ready, &known, (settings, cancel)) {
                     Ok(coverage) => made.coverage = Some(coverage),
                     Err(error) => made.internal = Some(error),
                 }
@@ -120,24 +126,24 @@ fn covered(
     project: &Project,
     attached: &AttachedTable,
     ready: &Ready,
-    settings: &Settings,
-    cancel: &Cancel,
+    known: &Known<'_>,
+    (settings, cancel): (&Settings, &Cancel),
 ) -> Result<Coverage, String> {
-    let (mut coverage, runs) = cover::cover(project, &attached.table, ready, cancel)?;
+    let (mut coverage, runs) = cover::cover(project, &attached.table, ready, known, cancel)?;
     if settings.verify.mutants {
         coverage.mutants = Some(mutants::mutants(project, ready, &runs, cancel)?);
     }
     Ok(coverage)
 }
 
-/// Decides, and checks the answer again.
+/// Decides, and checks the answer again; runs that came up on the way.
 fn judge(
     ready: &Ready,
     settings: &Settings,
     made: &mut Verified,
     (start, cancel): (Instant, &Cancel),
     listener: &(dyn Fn(Progress) + Sync),
-) {
+) -> Vec<Choice> {
     let product = ready.strict.as_ref().map_or(&ready.product, |strict| &strict.product);
     let decided = decide(product, &settings.verify.options, (start, cancel), listener);
     (made.engine, made.ended) = (decided.engine, decided.ended);
@@ -149,13 +155,18 @@ fn judge(
         Decision::Violated(choice) => confirm_run(ready, &choice, made),
         Decision::Bounded(cycles) => made.verdict = Verdict::Bounded(cycles),
     }
+    decided.runs
+}
+
+/// How long a second check may take: as long as the engines, and half a minute at least.
+fn patience(settings: &Settings) -> Duration {
+    settings.verify.options.timeout.max(Duration::from_secs(30))
 }
 
 /// Checks a certificate by the room that shares nothing with the engines.
 fn confirm_certificate(ready: &Ready, settings: &Settings, made: &mut Verified) {
     let Verdict::Verified(certificate) = &made.verdict else { return };
-    // The second check gets as much time again, and half a minute at least.
-    let deadline = Instant::now() + settings.verify.options.timeout.max(Duration::from_secs(30));
+    let deadline = Instant::now() + patience(settings);
     let stop: Stop = Arc::new(move || Instant::now() >= deadline);
     if let Err(rejection) = invariant::check(ready.system(), certificate, &stop) {
         made.internal = Some(match rejection {

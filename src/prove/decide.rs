@@ -6,6 +6,7 @@ use super::engine::{Answer, Budget, Cancel, Fact as LatchFact, Hints, Progress, 
 use super::options::Options;
 use super::portfolio;
 use super::product::Product;
+use crate::logic::aig::Trace;
 use crate::logic::blast::{Blasted, LatchBit, blast};
 use crate::logic::certificate::{Certificate, Fact, StateBit};
 use crate::logic::system::{Labelled, System};
@@ -39,6 +40,8 @@ pub struct Decided {
     pub engine: &'static str,
     /// Why nothing is decided, where nothing is.
     pub ended: Option<Reason>,
+    /// Runs that came up, to states that are seldom reached.
+    pub runs: Vec<Choice>,
 }
 
 /// Decides the obligations of `product`, within the options' memory and their time, counted from `start`.
@@ -62,17 +65,19 @@ pub fn decide(
         Answer::Bounded { reason, .. } | Answer::GaveUp(reason) => Some(reason),
         Answer::Proved(_) | Answer::Violated(_) => None,
     };
+    let chosen = |trace: &Trace| {
+        let stimulus = blasted.stimulus(trace);
+        let globals = product.globals.iter().map(|state| stimulus.free[*state]).collect();
+        Choice { globals, inputs: stimulus.inputs }
+    };
     let decision = match outcome.answer {
         Answer::Proved(proof) => Decision::Proved(certificate(&blasted, proof)),
-        Answer::Violated(trace) => {
-            let stimulus = blasted.stimulus(&trace);
-            let globals = product.globals.iter().map(|state| stimulus.free[*state]).collect();
-            Decision::Violated(Choice { globals, inputs: stimulus.inputs })
-        }
+        Answer::Violated(trace) => Decision::Violated(chosen(&trace)),
         Answer::Bounded { depth, .. } => Decision::Bounded(depth as u64),
         Answer::GaveUp(_) => Decision::Bounded(0),
     };
-    Decided { decision, engine: outcome.engine, ended }
+    let runs = outcome.runs.iter().map(chosen).collect();
+    Decided { decision, engine: outcome.engine, ended, runs }
 }
 
 /// The system with one obligation: that all hold.

@@ -3,7 +3,7 @@
 
 use super::engine::{Answer, Fact, Proof};
 use super::problem::Problem;
-use crate::logic::aig::{self, Lit, Model};
+use crate::logic::aig::{self, Lit, Model, Trace};
 use crate::logic::sat::Stop;
 
 /// A smaller model, with one property.
@@ -43,9 +43,14 @@ impl Reduced {
     pub(crate) fn lift(&self, model: &Model, answer: Answer) -> Answer {
         match answer {
             Answer::Proved(proof) => Answer::Proved(self.proof(model, proof)),
-            Answer::Violated(trace) => Answer::Violated(self.0.trace(&trace)),
+            Answer::Violated(trace) => Answer::Violated(self.trace(&trace)),
             other => other,
         }
+    }
+
+    /// The run of the old model.
+    pub(crate) fn trace(&self, trace: &Trace) -> Trace {
+        self.0.trace(trace)
     }
 
     fn proof(&self, model: &Model, proof: Proof) -> Proof {

@@ -1,30 +1,47 @@
 //! What has been reached so far, and the runs that show it.
 
 use super::super::decide::Choice;
+use crate::logic::certificate::Certificate;
+
+/// What is known of a target so far.
+#[derive(Debug)]
+pub(super) enum Place {
+    /// Nothing.
+    Open,
+    /// This run is there in this cycle.
+    Reached { run: usize, cycle: usize },
+    /// No run is ever there, says the proof.
+    Never(Box<Certificate>),
+}
 
 /// Targets and the runs that reach them.
 #[derive(Debug, Default)]
 pub(super) struct Frontier {
-    reached: Vec<Option<(usize, usize)>>,
+    places: Vec<Place>,
     runs: Vec<Choice>,
 }
 
 impl Frontier {
     pub(super) fn new(targets: usize) -> Self {
-        Self { reached: vec![None; targets], runs: Vec::new() }
+        Self { places: (0..targets).map(|_| Place::Open).collect(), runs: Vec::new() }
     }
 
-    /// Those that no run reaches yet.
+    /// Those that no run reaches yet, and that nothing shows not to be reached.
     pub(super) fn open(&self) -> Vec<usize> {
-        (0..self.reached.len()).filter(|target| self.reached[*target].is_none()).collect()
+        (0..self.places.len()).filter(|target| self.is_open(*target)).collect()
     }
 
     pub(super) fn is_open(&self, target: usize) -> bool {
-        self.reached[target].is_none()
+        matches!(self.places[target], Place::Open)
     }
 
     pub(super) fn is_done(&self) -> bool {
-        self.reached.iter().all(Option::is_some)
+        self.open().is_empty()
+    }
+
+    /// No run is ever there.
+    pub(super) fn close(&mut self, target: usize, proof: Certificate) {
+        self.places[target] = Place::Never(Box::new(proof));
     }
 
     /// A run reaches these in these cycles; the ones that are new count.
@@ -33,16 +50,16 @@ impl Frontier {
         let Some(last) = new.iter().map(|(_, cycle)| *cycle).max() else { return };
         run.inputs.truncate(last + 1);
         for (target, cycle) in new {
-            let place = &mut self.reached[target];
-            if place.is_none_or(|(run, known)| run == self.runs.len() && cycle < known) {
-                *place = Some((self.runs.len(), cycle));
+            match &mut self.places[target] {
+                Place::Reached { cycle: known, .. } => *known = cycle.min(*known),
+                place => *place = Place::Reached { run: self.runs.len(), cycle },
             }
         }
         self.runs.push(run);
     }
 
-    /// The targets with run and cycle, and the runs; a run that another one begins with is left out.
-    pub(super) fn finish(self) -> (Vec<Option<(usize, usize)>>, Vec<Choice>) {
+    /// What is known of each target, and the runs; a run that another one begins with is left out.
+    pub(super) fn finish(self) -> (Vec<Place>, Vec<Choice>) {
         let mut order: Vec<usize> = (0..self.runs.len()).collect();
         order.sort_by_key(|run| (std::cmp::Reverse(self.runs[*run].inputs.len()), *run));
         let mut kept: Vec<Choice> = Vec::new();
@@ -55,7 +72,10 @@ impl Frontier {
                 kept.len() - 1
             });
         }
-        let moved = |(run, cycle): (usize, usize)| (place[run], cycle);
-        (self.reached.into_iter().map(|at| at.map(moved)).collect(), kept)
+        let moved = |at| match at {
+            Place::Reached { run, cycle } => Place::Reached { run: place[run], cycle },
+            other => other,
+        };
+        (self.places.into_iter().map(moved).collect(), kept)
     }
 }

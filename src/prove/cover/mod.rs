@@ -1,11 +1,13 @@
 //! What a proof covered: which rows some run reaches, which statements and branches some run within the table executes.
 //!
 //! Each is a question of reachability on the obligation's own system: is there a run, its inputs those of the table, that
-//! comes there? Random runs answer most of them, runs from state to state of the table and bounded model checking find the
-//! rest, and what no run of so many cycles reaches is handed to IC3, which may prove that none ever does. The answers are
-//! runs and certificates, for others to check. Work is counted, not time: the same question has the same answer.
+//! comes there? Random runs answer most of them, and runs that the search for the verdict came across. What the invariant of
+//! the verdict excludes is never reached. For the rest, bounded model checking and runs from state to state of the table find
+//! runs, and IC3 may prove that there is none. The answers are runs and certificates, for others to check. Work is counted, not
+//! time: the same question has the same answer.
 
 mod frontier;
+mod given;
 pub mod mutate;
 pub mod probe;
 mod search;
@@ -29,12 +31,16 @@ pub struct Question {
     pub targets: Vec<Term>,
     /// The states of the table's global variables.
     pub globals: Vec<usize>,
+    /// Runs that lead to states that are seldom reached, as far as they are known.
+    pub known: Vec<Choice>,
+    /// An inductive invariant of the system, if one is known.
+    pub invariant: Option<Certificate>,
 }
 
 /// How much may be done for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
-    /// Evaluations of a gate in random runs, 64 runs at once.
+    /// Evaluations of a gate in random runs, 64 runs at once: from the beginning, and as many from where known runs lead.
     pub simulation: u64,
     /// Work of bounded model checking.
     pub search: u64,

@@ -1,4 +1,5 @@
-//! The search: random runs, bounded model checking for the targets that are left, proofs that no run reaches them.
+//! The search: known and random runs, the known invariant, bounded model checking for the targets that are left, proofs that no
+//! run reaches them.
 //!
 //! Each question to the solver asks for any of the targets that are left, at the depth that is looked at; a run that it
 //! gives is followed for everything that it reaches, and random runs go on from its end.
@@ -9,16 +10,12 @@ use super::super::engine::{Answer, Budget, Cancel, Search};
 use super::super::ic3::Ic3Search;
 use super::super::reduce::Reduced;
 use super::super::witness;
-use super::frontier::Frontier;
+use super::frontier::{Frontier, Place};
 use super::walk::Walker;
-use super::{Effort, Fate, Question, Reached};
+use super::{Effort, Fate, Question, Reached, given};
 use crate::logic::aig::{Lit, Model};
 use crate::logic::blast::{Blasted, blast};
-use crate::logic::certificate::Certificate;
 use crate::logic::system::{Labelled, System};
-
-/// How long random runs go on from the end of a run that the solver found.
-const BEHIND: usize = 60;
 
 /// Answers a question, within an effort.
 #[must_use]
@@ -27,18 +24,24 @@ pub fn reach(question: &Question, effort: &Effort, cancel: &Cancel) -> Reached {
     let budget = Budget { cancel: cancel.clone(), ..Budget::default() };
     let mut frontier = Frontier::new(question.targets.len());
     let mut walker = Walker::new(question, &blasted, effort.simulation);
+    question.known.iter().for_each(|run| walker.repeat(run, &mut frontier));
     walker.explore(&mut frontier);
-    witnessed(&blasted, &budget, &mut walker, &mut frontier);
+    if let Some(invariant) = &question.invariant {
+        given::exclude(&blasted, invariant, (effort.search, &budget), &mut frontier);
+    }
     let depth = unrolled(&blasted.model, effort, &budget, &mut walker, &mut frontier);
-    let mut never = vec![None; question.targets.len()];
-    proofs(&blasted, effort, &budget, &mut walker, &mut frontier, &mut never);
-    let (reached, runs) = frontier.finish();
-    let fate = |(at, proof): (Option<(usize, usize)>, Option<Certificate>)| match (at, proof) {
-        (Some((run, cycle)), _) => Fate::Reached { run, cycle },
-        (None, Some(proof)) => Fate::Never(Box::new(proof)),
-        (None, None) => Fate::NotWithin(depth),
+    proofs(&blasted, effort, &budget, &mut walker, &mut frontier);
+    // Where runs are known, they were found in the same way.
+    if question.known.is_empty() {
+        witnessed(&blasted, &budget, &mut walker, &mut frontier);
+    }
+    let (places, runs) = frontier.finish();
+    let fate = |place| match place {
+        Place::Open => Fate::NotWithin(depth),
+        Place::Reached { run, cycle } => Fate::Reached { run, cycle },
+        Place::Never(proof) => Fate::Never(proof),
     };
-    Reached { fates: reached.into_iter().zip(never).map(fate).collect(), runs }
+    Reached { fates: places.into_iter().map(fate).collect(), runs }
 }
 
 /// Follows runs that lead, step by step, through the states of the table's automaton and the block's flags.
@@ -53,7 +56,7 @@ fn witnessed(blasted: &Blasted, budget: &Budget, walker: &mut Walker<'_>, fronti
         if frontier.is_done() {
             return;
         }
-        walker.follow(&run, BEHIND, frontier);
+        walker.follow(&run, frontier);
     }
 }
 
@@ -98,7 +101,7 @@ fn unrolled(
                 Reply::Yes => {
                     let trace = unrolled.trace(model, depth);
                     let before = frontier.open().len();
-                    walker.follow(&trace, BEHIND, frontier);
+                    walker.follow(&trace, frontier);
                     if frontier.open().len() == before {
                         return depth;
                     }
@@ -112,40 +115,31 @@ fn unrolled(
 }
 
 /// Tries to prove of each target that is left that no run reaches it.
-fn proofs(
-    blasted: &Blasted,
-    effort: &Effort,
-    budget: &Budget,
-    walker: &mut Walker<'_>,
-    frontier: &mut Frontier,
-    never: &mut [Option<Certificate>],
-) {
+fn proofs(blasted: &Blasted, effort: &Effort, budget: &Budget, walker: &mut Walker<'_>, frontier: &mut Frontier) {
     let open = frontier.open();
     let share = effort.proof / (open.len().max(1) as u64);
     for target in open {
         if !frontier.is_open(target) || budget.exhausted().is_some() {
             continue;
         }
-        if blasted.model.bad[target] == Lit::FALSE {
-            never[target] = Some(Certificate { k: 1, ..Certificate::default() });
-            continue;
-        }
         let reduced = Reduced::cone(&blasted.model, target);
-        let mut search = Ic3Search::new(reduced.problem());
-        let answer = search.advance(share, budget, &|_| {});
+        let answer = Ic3Search::new(reduced.problem()).advance(share, budget, &|_| {});
         match answer.map(|answer| reduced.lift(&blasted.model, answer)) {
-            Some(Answer::Proved(proof)) => never[target] = Some(certificate(blasted, proof)),
-            Some(Answer::Violated(trace)) => walker.follow(&trace, BEHIND, frontier),
+            Some(Answer::Proved(proof)) => frontier.close(target, certificate(blasted, proof)),
+            Some(Answer::Violated(trace)) => walker.follow(&trace, frontier),
             _ => {}
         }
     }
 }
 
-/// The obligation that a target's certificate is about.
+/// The obligation that the certificate of these targets is about.
 #[must_use]
-pub fn never(question: &Question, target: usize) -> System {
+pub fn never(question: &Question, targets: &[usize]) -> System {
     let mut system = question.system.clone();
-    let term = system.pool.not(question.targets[target]);
-    system.obligations = vec![Labelled { term, name: "not reached".to_owned(), origin: None }];
+    let obligation = |target: &usize| {
+        let term = system.pool.not(question.targets[*target]);
+        Labelled { term, name: "not reached".to_owned(), origin: None }
+    };
+    system.obligations = targets.iter().map(obligation).collect();
     system
 }

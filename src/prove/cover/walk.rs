@@ -13,11 +13,14 @@ use super::Question;
 use super::frontier::Frontier;
 use crate::logic::aig::{Lit, Trace};
 use crate::logic::blast::Blasted;
+use crate::logic::simulate::Stimulus;
 
 /// How many runs there are at once.
 const LANES: usize = 64;
 /// How often other inputs are tried where no run stays within the table.
 const TRIES: usize = 12;
+/// How long random runs go on from the end of a run that is followed.
+const BEHIND: usize = 300;
 /// So many values of inputs are remembered.
 const MEMORY: usize = 6_000_000;
 /// No step before this one.
@@ -51,7 +54,8 @@ pub(super) struct Walker<'m> {
     /// The constants of the terms, by width.
     named: BTreeMap<u32, Vec<u64>>,
     covered: Lit,
-    /// Gates that may still be evaluated.
+    /// How many gates may be evaluated on runs from the beginning, and how many on those from further on; what is left.
+    work: u64,
     left: u64,
 }
 
@@ -64,11 +68,26 @@ impl<'m> Walker<'m> {
         }
         let covered = blasted.outputs.first().and_then(|bits| bits.first()).copied().unwrap_or(Lit::FALSE);
         let simulator = Simulator::new(&blasted.model);
-        Self { question, blasted, simulator, random: Random::new(7), steps: Vec::new(), named, covered, left: work }
+        Self {
+            question,
+            blasted,
+            simulator,
+            random: Random::new(7),
+            steps: Vec::new(),
+            named,
+            covered,
+            work,
+            left: work,
+        }
     }
 
     /// Runs from the beginning, of growing lengths.
     pub(super) fn explore(&mut self, frontier: &mut Frontier) {
+        self.wander(frontier);
+        self.left = self.work;
+    }
+
+    fn wander(&mut self, frontier: &mut Frontier) {
         for (times, cycles) in [(8, 12), (8, 40), (4, 150), (2, 600), (2, 2_500)] {
             for _ in 0..times {
                 if frontier.is_done() || self.left == 0 {
@@ -83,8 +102,25 @@ impl<'m> Walker<'m> {
         }
     }
 
+    /// Follows a run as it is kept, and notes what it reaches.
+    pub(super) fn repeat(&mut self, run: &Choice, frontier: &mut Frontier) {
+        let system = &self.question.system;
+        let mut free = vec![0; system.states.len()];
+        for (state, value) in self.question.globals.iter().zip(&run.globals) {
+            free[*state] = *value;
+        }
+        let stimulus = Stimulus { free, inputs: run.inputs.clone() };
+        self.go_along(&self.blasted.trace(system, &stimulus), frontier);
+    }
+
     /// Follows a run, notes what it reaches, and goes on from its end.
-    pub(super) fn follow(&mut self, trace: &Trace, cycles: usize, frontier: &mut Frontier) {
+    pub(super) fn follow(&mut self, trace: &Trace, frontier: &mut Frontier) {
+        let lanes = self.go_along(trace, frontier);
+        self.go_on(lanes, BEHIND, frontier);
+    }
+
+    /// Follows a run as far as the constraints hold, and notes what it reaches; where it ends.
+    fn go_along(&mut self, trace: &Trace, frontier: &mut Frontier) -> Lanes {
         let model = &self.blasted.model;
         self.steps.clear();
         let all = |value: bool| if value { u64::MAX } else { 0 };
@@ -100,6 +136,9 @@ impl<'m> Walker<'m> {
         for (cycle, bits) in trace.inputs.iter().enumerate() {
             self.simulator.start(|latch| states[latch]);
             self.simulator.evaluate(|input| all(bits.get(input) == Some(&true)));
+            if model.constraints.iter().any(|constraint| self.simulator.value(*constraint) & 1 == 0) {
+                break;
+            }
             let found = (0..model.bad.len()).filter(|target| self.simulator.value(model.bad[*target]) & 1 == 1);
             hits.extend(found.map(|target| (target, cycle)));
             states = model.latches.iter().map(|latch| self.simulator.value(latch.next)).collect();
@@ -108,7 +147,7 @@ impl<'m> Walker<'m> {
         let globals = self.globals(&first, 0);
         frontier.add(Choice { globals, inputs: run.inputs.clone() }, &hits);
         let values = run.inputs.last().into_iter().flatten().map(|value| [*value; LANES]).collect();
-        self.go_on(Lanes { states, first, at: [at; LANES], values }, cycles, frontier);
+        Lanes { states, first, at: [at; LANES], values }
     }
 
     fn step(&mut self, before: u32, inputs: Vec<u64>) -> u32 {

@@ -19,7 +19,7 @@ mod sample;
 use super::engine::{Answer, Budget, Engine, Hints, Progress, Reason};
 use super::problem::Problem;
 use super::witness;
-use crate::logic::aig::{Lit, Model};
+use crate::logic::aig::{Lit, Model, Trace};
 use cases::Question;
 use guess::Seen;
 use houdini::Houdini;
@@ -42,15 +42,22 @@ impl Engine for Mine {
     fn run(&self, model: &Model, property: usize, budget: &Budget, progress: &dyn Fn(Progress)) -> Answer {
         progress(Progress { engine: "mine", depth: 1, clauses: 0 });
         match mine(Problem::new(model, property), &self.hints, budget) {
-            Ok(Mined::Proved(answer)) => answer,
-            Ok(Mined::Enriched(_)) => Answer::GaveUp(Reason::Incomplete),
+            Ok(Mined { found: Found::Proved(answer), .. }) => answer,
+            Ok(Mined { found: Found::Enriched(_), .. }) => Answer::GaveUp(Reason::Incomplete),
             Err(reason) => Answer::GaveUp(reason),
         }
     }
 }
 
 /// What mining leads to.
-pub(crate) enum Mined {
+pub(crate) struct Mined {
+    pub(crate) found: Found,
+    /// Runs into states of the table's automaton and of the block that it guessed from.
+    pub(crate) runs: Vec<Trace>,
+}
+
+/// What the facts are good for.
+pub(crate) enum Found {
     /// The facts imply the property.
     Proved(Answer),
     /// They do not; other engines may use them.
@@ -80,7 +87,8 @@ pub(crate) fn mine(mut problem: Problem, hints: &Hints, budget: &Budget) -> Resu
             false => houdini.imply_property(budget)?,
         };
         if let Some(clauses) = proved {
-            return Ok(Mined::Proved(Answer::Proved(problem.proof(&clauses, 1, false))));
+            let found = Found::Proved(Answer::Proved(problem.proof(&clauses, 1, false)));
+            return Ok(Mined { found, runs: traces });
         }
     }
     let spoken: std::collections::BTreeSet<u32> = facts.iter().flatten().map(|l| l.node()).collect();
@@ -90,5 +98,5 @@ pub(crate) fn mine(mut problem: Problem, hints: &Hints, budget: &Budget) -> Resu
             problem.add_signal(predicate);
         }
     }
-    Ok(Mined::Enriched(problem))
+    Ok(Mined { found: Found::Enriched(problem), runs: traces })
 }

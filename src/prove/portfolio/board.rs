@@ -11,10 +11,11 @@ use super::super::engine::{Answer, Budget, Cancel, Hints, Progress, Reason, Sear
 use super::super::ic3::Ic3Search;
 use super::super::induction::InductionSearch;
 use super::super::interpolation::InterpolationSearch;
-use super::super::mine::{Mined, mine};
+use super::super::mine::{Found, Mined, mine};
 use super::super::problem::Problem;
 use super::plan::{NAMES, Name, Plan, Turn};
 use super::{Listener, Outcome};
+use crate::logic::aig::Trace;
 
 /// How much less work IC3 and interpolation get, whose ticks take longer.
 const SHARE: u64 = 4;
@@ -44,7 +45,7 @@ impl Lane {
 /// The shortest run that is bad, where that is found with so much work.
 pub(super) fn shortest(problem: Problem, work: u64, budget: &Budget, listener: Listener<'_>) -> Option<Outcome> {
     let answer = BmcSearch::new(problem).advance(work, budget, listener)?;
-    matches!(answer, Answer::Violated(_)).then_some(Outcome { answer, engine: "bmc" })
+    matches!(answer, Answer::Violated(_)).then_some(Outcome { answer, engine: "bmc", runs: Vec::new() })
 }
 
 /// Where somebody who takes turns is.
@@ -67,6 +68,8 @@ struct State {
     seen: usize,
     running: Vec<(usize, Cancel)>,
     best: Option<(usize, Outcome)>,
+    /// The turn in which was mined, and runs that came up.
+    mined: Option<(usize, Vec<Trace>)>,
     /// No run of so many cycles is bad.
     safe: usize,
 }
@@ -90,8 +93,12 @@ enum Came {
     Ended {
         safe: usize,
     },
-    /// The problem with what was mined, and whether that is anything.
-    Mined(Problem, bool),
+    /// The problem with what was mined, whether that is anything, and runs that came up.
+    Mined {
+        problem: Problem,
+        is_richer: bool,
+        runs: Vec<Trace>,
+    },
     Settled(Outcome),
 }
 
@@ -142,6 +149,7 @@ impl<'b> Board<'b> {
             seen: 0,
             running: Vec::new(),
             best: None,
+            mined: None,
             safe: 0,
         };
         let plan = Plan::new(problem.model.aig.len());
@@ -157,11 +165,14 @@ impl<'b> Board<'b> {
             self.work();
         });
         let mut state = self.lock();
-        if let Some((_, outcome)) = state.best.take() {
-            return outcome;
-        }
         let reason = self.budget.exhausted().unwrap_or(Reason::Memory);
-        Outcome { answer: bounded(state.safe, reason), engine: "portfolio" }
+        let none = Outcome { answer: bounded(state.safe, reason), engine: "portfolio", runs: Vec::new() };
+        let (end, outcome) = state.best.take().unwrap_or((usize::MAX, none));
+        // Of a turn behind the answer's it depends on who takes part whether it has ended.
+        match state.mined.take() {
+            Some((turn, runs)) if turn < end => Outcome { runs, ..outcome },
+            _ => outcome,
+        }
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
@@ -196,7 +207,9 @@ impl<'b> Board<'b> {
         let Some(mut lane) = lane else { return self.mine(budget) };
         let answer = lane.search.advance(turn.work / lane.share, budget, self.listener);
         match answer {
-            Some(answer) if answer.is_final() => Came::Settled(Outcome { answer, engine: lane.engine }),
+            Some(answer) if answer.is_final() => {
+                Came::Settled(Outcome { answer, engine: lane.engine, runs: Vec::new() })
+            }
             None if lane.search.bytes() <= budget.memory => Came::Back(lane),
             _ => Came::Ended { safe: lane.search.depth() },
         }
@@ -205,9 +218,9 @@ impl<'b> Board<'b> {
     fn mine(&self, budget: &Budget) -> Came {
         (self.listener)(Progress { engine: "mine", depth: 1, clauses: 0 });
         match mine(self.problem.clone(), self.hints, budget) {
-            Ok(Mined::Proved(answer)) => Came::Settled(Outcome { answer, engine: "mine" }),
-            Ok(Mined::Enriched(problem)) => Came::Mined(problem, true),
-            Err(_) => Came::Mined(self.problem.clone(), false),
+            Ok(Mined { found: Found::Proved(answer), runs }) => Came::Settled(Outcome { answer, engine: "mine", runs }),
+            Ok(Mined { found: Found::Enriched(problem), runs }) => Came::Mined { problem, is_richer: true, runs },
+            Err(_) => Came::Mined { problem: self.problem.clone(), is_richer: false, runs: Vec::new() },
         }
     }
 }
@@ -266,7 +279,8 @@ impl State {
                 }
             }
             Came::Ended { safe } => self.safe = self.safe.max(safe),
-            Came::Mined(problem, is_richer) => {
+            Came::Mined { problem, is_richer, runs } => {
+                self.mined = Some((index, runs));
                 self.seat(Name::InductionWithFacts, Place::Free(Box::new(Lane::induction(&problem))));
                 let ic3 = if is_richer { Place::Free(Box::new(Lane::ic3(&problem))) } else { Place::Over };
                 self.seat(Name::Ic3WithFacts, ic3);

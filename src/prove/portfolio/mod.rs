@@ -12,7 +12,7 @@ mod plan;
 use super::engine::{Answer, Budget, Engine, Hints, Progress, Reason};
 use super::reduce::Reduced;
 use super::simulate::is_violation;
-use crate::logic::aig::Model;
+use crate::logic::aig::{Model, Trace};
 use board::Board;
 
 /// What to do.
@@ -37,6 +37,8 @@ pub struct Outcome {
     pub answer: Answer,
     /// The engine.
     pub engine: &'static str,
+    /// Runs that mining found where it was done, to states that are seldom reached; they do not bear on the answer.
+    pub runs: Vec<Trace>,
 }
 
 /// Somebody who is told how it goes, from any thread.
@@ -53,13 +55,12 @@ pub fn decide(model: &Model, property: usize, options: &Options, budget: &Budget
     let hints = Hints { words: reduced.words(model, &options.hints.words) };
     let outcome = Board::new(problem, &hints, (budget, listener), options.jobs.clamp(1, 2)).settle();
     let outcome = shortened(outcome, &reduced, budget, listener);
-    let answer = reduced.lift(model, outcome.answer);
-    match &answer {
-        Answer::Violated(trace) if !is_violation(model, property, trace) => {
-            Outcome { answer: Answer::GaveUp(Reason::Incomplete), engine: outcome.engine }
-        }
-        _ => Outcome { answer, engine: outcome.engine },
-    }
+    let runs = outcome.runs.iter().map(|run| reduced.trace(run)).collect();
+    let answer = match reduced.lift(model, outcome.answer) {
+        Answer::Violated(trace) if !is_violation(model, property, &trace) => Answer::GaveUp(Reason::Incomplete),
+        answer => answer,
+    };
+    Outcome { answer, engine: outcome.engine, runs }
 }
 
 /// A run that IC3 or interpolation found may be longer than it need be: the shortest one, where it is soon found.

@@ -51,6 +51,10 @@ const OPENING: [Turn; 9] = [
     of(Name::Interpolation, 4 * FIRST),
 ];
 
+/// Mining, and behind it a short look whether what was mined does it.
+const MINING: [Turn; 3] =
+    [of(Name::Mine, 0), of(Name::Ic3WithFacts, 4 * FIRST), of(Name::InductionWithFacts, 4 * FIRST)];
+
 /// The turns that come round again and again.
 const ROUND: [Name; 4] = [Name::InductionWithFacts, Name::Interpolation, Name::Ic3WithFacts, Name::Ic3];
 
@@ -66,7 +70,7 @@ impl Plan {
         if nodes >= LARGE {
             opening.push(of(Name::Interpolation, BEFORE));
         }
-        opening.push(of(Name::Mine, 0));
+        opening.extend(MINING);
         Self { opening }
     }
 

@@ -131,3 +131,33 @@ fn a_row_after_a_long_wait_is_reached() {
     let missed: Vec<&str> = coverage.missed().map(|item| item.name.as_str()).collect();
     assert_eq!(missed, ["c := 0;", "NOT A: holds"]);
 }
+
+#[test]
+fn a_row_behind_a_long_wait_with_given_inputs_is_reached() {
+    let text = "(* A valve.
+
+   @gtt T
+   | # | in A | in B | in C | out Q | dur |
+   |---|------|------|------|-------|-----|
+   | 1 | 1234 | 4711 | 16#8 | F     | 100 |
+   | 2 | 1234 | -77  | 16#8 | T     | 1   |
+   | 3 | 99   | -77  | 16#8 | F     | 1   |
+*)
+FUNCTION_BLOCK FB_Valve
+VAR_INPUT A : INT; B : INT; C : INT; END_VAR
+VAR_OUTPUT Q : BOOL; END_VAR
+VAR c1 : UINT; END_VAR
+IF A = 1234 AND C = 8 THEN
+  c1 := c1 + 1;
+END_IF
+Q := c1 = 101 AND B = -77 AND A = 1234;
+IF c1 > 101 THEN
+  c1 := 0;
+END_IF
+END_FUNCTION_BLOCK
+";
+    let coverage = coverage(text);
+    assert_eq!((coverage.rows.hit, coverage.rows.total), (3, 3), "{coverage:?}");
+    let missed: Vec<(&str, String)> = coverage.missed().map(|item| (item.name.as_str(), item.fate.text())).collect();
+    assert_eq!(missed, [("c1 := 0;", "never".to_owned()), ("c1 > 101: holds", "never".to_owned())]);
+}
