@@ -104,6 +104,10 @@ fn answer(file: &str, request: &Request) -> Result<String, String> {
     Ok(format!("{verdict}\t{engine}\t{file}"))
 }
 
+/// As of the command.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> ExitCode {
     let request = match request(std::env::args().skip(1)) {
         Ok(request) => request,

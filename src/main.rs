@@ -2,6 +2,10 @@
 
 use std::process::ExitCode;
 
+/// Models and terms are many small allocations, on several threads.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> ExitCode {
     rungbook::cli::run(std::env::args_os())
 }

@@ -96,11 +96,10 @@ fn equal_words(probe: &mut Unrolled<'_>, guard: Option<Lit>) -> Result<Classes, 
         }
         let goal = probe.gates.any(&differ);
         let assumptions: Vec<Lit> = guard.into_iter().chain([goal]).collect();
-        match probe.gates.satisfiable(&assumptions) {
-            Some(true) => classes = split(probe, &words, &classes),
-            Some(false) => return Ok(classes),
-            None => return Err(Rejection::OutOfTime),
+        if !probe.gates.satisfiable(&assumptions)? {
+            return Ok(classes);
         }
+        classes = split(probe, &words, &classes);
     }
     // Still not told apart: each for itself, which is always true.
     Ok((0..words.len()).collect())

@@ -3,14 +3,28 @@
 
 use std::collections::HashMap;
 
-use batsat::{Callbacks, Lit, Solver, SolverInterface, lbool};
+use batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, lbool};
 
-/// Stops a solver that takes too long.
-pub(super) struct Stop(pub(super) Box<dyn Fn() -> bool>);
+use super::invariant::Rejection;
+use super::rup::Checker;
 
-impl Callbacks for Stop {
+/// Stops a solver that takes too long, and checks what it concludes.
+struct Watcher {
+    stop: Box<dyn Fn() -> bool>,
+    checker: Checker,
+}
+
+impl Callbacks for Watcher {
+    fn on_new_clause(&mut self, clause: &[Lit], _: ClauseKind) {
+        self.checker.learn(clause);
+    }
+
+    fn on_delete_clause(&mut self, clause: &[Lit]) {
+        self.checker.forget(clause);
+    }
+
     fn stop(&self) -> bool {
-        (self.0)()
+        (self.stop)()
     }
 }
 
@@ -19,7 +33,7 @@ pub(super) type Word = Vec<Lit>;
 
 /// A solver with the circuit that it was told.
 pub(super) struct Gates {
-    solver: Solver<Stop>,
+    solver: Solver<Watcher>,
     top: Lit,
     ands: HashMap<(Lit, Lit), Lit>,
     xors: HashMap<(Lit, Lit), Lit>,
@@ -29,17 +43,18 @@ pub(super) struct Gates {
 
 impl Gates {
     pub(super) fn new(stop: Box<dyn Fn() -> bool>) -> Self {
-        let mut solver = Solver::new(batsat::SolverOpts::default(), Stop(stop));
+        let mut solver = Solver::new(batsat::SolverOpts::default(), Watcher { stop, checker: Checker::default() });
         let top = Lit::new(solver.new_var_default(), true);
-        solver.add_clause_reuse(&mut vec![top]);
-        Self {
+        let mut gates = Self {
             solver,
             top,
             ands: HashMap::new(),
             xors: HashMap::new(),
             majorities: HashMap::new(),
             choices: HashMap::new(),
-        }
+        };
+        gates.clause(&[top]);
+        gates
     }
 
     /// The literal that is true, or the one that is false.
@@ -56,18 +71,23 @@ impl Gates {
     }
 
     pub(super) fn clause(&mut self, lits: &[Lit]) {
+        self.solver.cb_mut().checker.add(lits);
         self.solver.add_clause_reuse(&mut lits.to_vec());
     }
 
-    /// Whether the clauses can be satisfied together with `assumptions`; `None` if it was stopped.
-    pub(super) fn satisfiable(&mut self, assumptions: &[Lit]) -> Option<bool> {
+    /// Whether the clauses can be satisfied together with `assumptions`. That they cannot was checked by unit propagation.
+    ///
+    /// # Errors
+    /// If it was stopped, or what the solver says does not follow.
+    pub(super) fn satisfiable(&mut self, assumptions: &[Lit]) -> Result<bool, Rejection> {
         let answer = self.solver.solve_limited(assumptions);
         if answer == lbool::TRUE {
-            Some(true)
+            Ok(true)
         } else if answer == lbool::FALSE {
-            Some(false)
+            let is_founded = self.solver.cb_mut().checker.refutes(assumptions);
+            if is_founded { Ok(false) } else { Err(Rejection::Unfounded) }
         } else {
-            None
+            Err(Rejection::OutOfTime)
         }
     }
 

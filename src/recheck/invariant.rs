@@ -23,6 +23,8 @@ pub enum Rejection {
     NotSafe,
     /// An obligation fails in one of the first cycles.
     Fails,
+    /// The solver refuted a question, and what it concluded does not follow: an error in the solver.
+    Unfounded,
     /// The time was over.
     OutOfTime,
 }
@@ -122,11 +124,7 @@ impl<'s> Unrolled<'s> {
 
     /// Whether no model has all of `lits`.
     pub(super) fn refute(&mut self, lits: &[Lit], otherwise: Rejection) -> Result<(), Rejection> {
-        match self.gates.satisfiable(lits) {
-            Some(false) => Ok(()),
-            Some(true) => Err(otherwise),
-            None => Err(Rejection::OutOfTime),
-        }
+        if self.gates.satisfiable(lits)? { Err(otherwise) } else { Ok(()) }
     }
 
     /// Whether no model violates any of the clauses, asked for some at a time; what is said where one does.
@@ -135,7 +133,7 @@ impl<'s> Unrolled<'s> {
             let violated: Vec<Vec<Lit>> = block.iter().map(|clause| clause.iter().map(|&lit| !lit).collect()).collect();
             let each: Vec<Lit> = violated.iter().map(|lits| self.gates.all(lits)).collect();
             let any = self.gates.any(&each);
-            if self.gates.satisfiable(&[any]) == Some(false) {
+            if self.gates.satisfiable(&[any]) == Ok(false) {
                 continue;
             }
             for (index, lits) in violated.iter().enumerate() {

@@ -1,5 +1,5 @@
-//! Believes nothing of what `prove/` says: checks certificates by its own encoding and another solver, and replays runs on
-//! the interpreter and the game of the table.
+//! Believes nothing of what `prove/` says: checks certificates by its own encoding and another solver, checks each conclusion
+//! of that solver by unit propagation, and replays runs on the interpreter and the game of the table.
 //!
 //! Of `logic/` it uses the terms, the system over them and the certificate's definition, not the simplifier, not the
 //! bit-blaster, not the solver. What it trusts, therefore: the translation of block and table into one system, which is
@@ -12,4 +12,5 @@ mod gates;
 pub mod invariant;
 pub mod lasso;
 pub mod replay;
+mod rup;
 pub mod strict;

@@ -207,8 +207,9 @@ fn decide(job: &Job, chosen: &[usize], fresh: bool, progress: &Progress) -> Resu
     let open = chosen.iter().filter(|index| !is_settled(job, &known[**index])).count();
     let mut settings = job.settings.clone();
     settings.verify.options.threads = (jobs / open.max(1)).max(1);
+    let order = largest_first(job, chosen, &known);
     let work = || {
-        while let Some(index) = chosen.get(next.fetch_add(1, Ordering::Relaxed)) {
+        while let Some(index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
             let line = one((job, &settings), &known[*index], *index, &cancel, progress, &failed);
             progress.event(pipeline::Event::Advance(1));
             if let Ok(mut done) = done.lock() {
@@ -228,6 +229,18 @@ fn decide(job: &Job, chosen: &[usize], fresh: bool, progress: &Progress) -> Resu
     let mut done = done.into_inner().unwrap_or_default();
     done.sort_by_key(|line| line.table);
     Ok(done)
+}
+
+/// The tables in the order in which they are begun: what takes the longest is not left for the end, where nothing else is
+/// left to do.
+fn largest_first(job: &Job, chosen: &[usize], known: &[(Record, Answer)]) -> Vec<usize> {
+    let size = |index: &usize| {
+        let ready = (!is_settled(job, &known[*index])).then(|| pipeline::ready::ready(&job.project, *index).ok());
+        ready.flatten().map_or(0, |ready| ready.system().pool.len())
+    };
+    let mut order = chosen.to_vec();
+    order.sort_by_cached_key(|index| std::cmp::Reverse(size(index)));
+    order
 }
 
 /// Whether nothing is left to find out.

@@ -46,7 +46,7 @@ const OPENING: [Turn; 9] = [
     of(Name::Induction, 4 * FIRST),
     of(Name::Ic3, 2 * FIRST),
     of(Name::Interpolation, 2 * FIRST),
-    of(Name::Induction, 10 * FIRST),
+    of(Name::Induction, 5 * FIRST),
     of(Name::Ic3, 4 * FIRST),
     of(Name::Interpolation, 4 * FIRST),
 ];
