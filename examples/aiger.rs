@@ -91,7 +91,7 @@ fn answer(file: &str, request: &Request) -> Result<String, String> {
     let (answer, engine) = if let Some(engine) = &request.engine {
         (engine.run(&model, 0, &budget, &|_| ()), engine.name())
     } else {
-        let options = Options { jobs: request.jobs, hints: Hints { words: words(&model, &names) } };
+        let options = Options { threads: request.jobs, hints: Hints { words: words(&model, &names) } };
         let outcome = decide(&model, 0, &options, &budget, &|_| ());
         (outcome.answer, outcome.engine)
     };

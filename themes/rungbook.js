@@ -101,10 +101,21 @@
     return inner;
   }
 
+  // A name that breaks, where it must, before a word in it.
+  function breakable(name) {
+    var span = element("span");
+    var words = name.replace(/_(?=.)|[a-z0-9](?=[A-Z])/g, "$&\n").split("\n");
+    words.forEach(function (word, at) {
+      if (at > 0) span.appendChild(element("wbr"));
+      span.append(word);
+    });
+    return span;
+  }
+
   function link(name, url, short) {
     var a = element("a", { href: root + url });
     if (short) a.appendChild(element("span", { class: "chip chip-" + short.toLowerCase() }, short));
-    a.appendChild(element("span", {}, name));
+    a.appendChild(breakable(name));
     if (url === path) a.setAttribute("aria-current", "page");
     return a;
   }
@@ -114,7 +125,7 @@
     var item = element("li");
     var head = element("div", { class: "branch" });
     var button = element("button", { type: "button", "aria-label": name, "aria-expanded": "false" });
-    head.append(button, url ? link(name, url) : element("span", {}, name));
+    head.append(button, url ? link(name, url) : breakable(name));
     item.appendChild(head);
     var inside = null;
     function show(open) {

@@ -11,7 +11,7 @@
 //!   different in their states where `simple_path` is set, are followed by one in which `P` holds (Sheeran, Singh and
 //!   Stålmarck, *Checking Safety Properties Using Induction and a SAT-Solver*, FMCAD 2000).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::system::System;
 
@@ -72,6 +72,10 @@ impl Certificate {
                 return None;
             }
         }
+        let names: BTreeSet<&str> = from.states.iter().map(|state| state.name.as_str()).collect();
+        if names.len() < from.states.len() {
+            return None;
+        }
         let fact = |fact: &Fact| match fact {
             Fact::Bit(bit) => {
                 let name = from.states.get(bit.state as usize)?.name.as_str();
@@ -116,5 +120,6 @@ mod tests {
         assert_eq!(there.clauses, [vec![bit(0, 0), Fact::Gate(0, false)]]);
         assert_eq!(own.moved(&system(&["a", "b"]), &system(&["b", "probe"])), None, "a is missing");
         assert_eq!(own.moved(&system(&["a", "b"]), &system(&["a", "b", "b"])), None, "which b?");
+        assert_eq!(own.moved(&system(&["a", "a"]), &system(&["a", "b"])), None, "which a?");
     }
 }

@@ -78,6 +78,13 @@ pub(super) fn counted(project: &Project, unit: ItemId) -> BTreeSet<ItemId> {
     found
 }
 
+/// What was not confirmed.
+struct Rejected {
+    text: String,
+    /// It is the invariant of the verdict, as one of the system with probes.
+    is_of_invariant: bool,
+}
+
 struct Work<'a> {
     project: &'a Project,
     table: &'a Table,
@@ -110,25 +117,35 @@ impl Work<'_> {
         let probes = self.probed.slots().map(|slot| translated.end[slot.0 as usize]);
         let invariant = known.invariant.and_then(|proof| proof.moved(ready.system(), &system));
         let targets = rows.into_iter().chain(probes).map(|target| system.pool.and(target, covered)).collect();
-        let question =
+        let mut question =
             Question { system, covered, targets, globals: made.globals, known: known.runs.clone(), invariant };
         self.inputs = made.inputs;
         let found = reach(&question, &Effort::default(), cancel);
-        self.confirm(&question, &found, known.patience)?;
-        Ok(found)
+        match self.confirm(&question, &found, known.patience) {
+            Ok(()) => Ok(found),
+            // The probes can lead the translation to other states, of which the invariant says too little.
+            Err(rejected) if rejected.is_of_invariant => {
+                question.invariant = None;
+                let found = reach(&question, &Effort::default(), cancel);
+                self.confirm(&question, &found, known.patience).map_err(|rejected| rejected.text)?;
+                Ok(found)
+            }
+            Err(rejected) => Err(rejected.text),
+        }
     }
 
     /// Plays the runs and checks the proofs.
-    fn confirm(&self, question: &Question, found: &Reached, patience: Duration) -> Result<(), String> {
+    fn confirm(&self, question: &Question, found: &Reached, patience: Duration) -> Result<(), Rejected> {
         let seen = found.runs.iter().map(|run| Ok(self.seen(&self.played(run)?)));
-        let seen: Vec<Vec<BTreeSet<usize>>> = seen.collect::<Result<_, String>>()?;
+        let other = |text| Rejected { text, is_of_invariant: false };
+        let seen: Vec<Vec<BTreeSet<usize>>> = seen.collect::<Result<_, String>>().map_err(other)?;
         let mut proofs: Vec<(&Certificate, Vec<usize>)> = Vec::new();
         for (target, fate) in found.fates.iter().enumerate() {
             match fate {
                 Found::Reached { run, cycle } => {
                     let there = seen.get(*run).and_then(|cycles| cycles.get(*cycle));
                     if !there.is_some_and(|there| there.contains(&target)) {
-                        return Err(format!("a run that is said to cover something does not (target {target})"));
+                        return Err(other(format!("a run that is said to cover something does not (target {target})")));
                     }
                 }
                 Found::Never(proof) => match proofs.iter_mut().find(|(known, _)| **known == **proof) {
@@ -142,7 +159,10 @@ impl Work<'_> {
             let start = Instant::now();
             let stop: invariant::Stop = Arc::new(move || start.elapsed() >= patience);
             invariant::check(&never(question, &targets), proof, &stop).map_err(|rejection| {
-                format!("the proof that something is never reached was rejected: {rejection:?} (targets {targets:?})")
+                let text = format!(
+                    "the proof that something is never reached was rejected: {rejection:?} (targets {targets:?})"
+                );
+                Rejected { text, is_of_invariant: question.invariant.as_ref() == Some(proof) }
             })?;
         }
         Ok(())

@@ -59,7 +59,7 @@ pub fn decide(
     };
     let blasted = blast(&together(&product.system));
     let words = blasted.states.clone();
-    let options = portfolio::Options { jobs: options.threads, hints: Hints { words } };
+    let options = portfolio::Options { threads: options.threads, hints: Hints { words } };
     let outcome = portfolio::decide(&blasted.model, 0, &options, &budget, listener);
     let ended = match outcome.answer {
         Answer::Bounded { reason, .. } | Answer::GaveUp(reason) => Some(reason),

@@ -174,14 +174,15 @@ impl Checker {
     }
 
     fn watch(&mut self, literals: &[Code]) -> Option<u32> {
-        let numbers = (self.clauses.len().try_into(), self.literals.len().try_into(), literals.len().try_into());
-        let (Ok(index), Ok(start), Ok(len)) = numbers else {
+        let end = self.literals.len() + literals.len();
+        let numbers = (self.clauses.len().try_into(), u32::try_from(end), u32::try_from(literals.len()));
+        let (Ok(index), Ok(end), Ok(len)) = numbers else {
             // More than 16 GB of clauses: what cannot be taken in is not believed.
             self.is_flawed = true;
             return None;
         };
         self.literals.extend(literals);
-        self.clauses.push(Clause { start, len });
+        self.clauses.push(Clause { start: end - len, len });
         self.watches[literals[0] as usize].push(Watch { clause: index, blocker: literals[1] });
         self.watches[literals[1] as usize].push(Watch { clause: index, blocker: literals[0] });
         Some(index)
@@ -245,13 +246,17 @@ impl Checker {
         true
     }
 
-    /// Gives back the memory of deleted clauses.
+    /// Gives back the memory of deleted clauses, and of those that are true in every model.
     fn compact(&mut self) {
         let mut literals = Vec::with_capacity(self.literals.len() - self.dead);
         for clause in &mut self.clauses {
             let own = clause.start as usize..(clause.start + clause.len) as usize;
             // No further behind than before.
             clause.start = u32::try_from(literals.len()).unwrap_or(clause.start);
+            if self.literals[own.clone()].iter().any(|&literal| self.values[literal as usize] > 0) {
+                clause.len = 0;
+                continue;
+            }
             literals.extend_from_slice(&self.literals[own]);
         }
         self.literals = literals;

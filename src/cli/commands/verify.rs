@@ -207,7 +207,7 @@ fn decide(job: &Job, chosen: &[usize], fresh: bool, progress: &Progress) -> Resu
     let open = chosen.iter().filter(|index| !is_settled(job, &known[**index])).count();
     let mut settings = job.settings.clone();
     settings.verify.options.threads = (jobs / open.max(1)).max(1);
-    let order = largest_first(job, chosen, &known);
+    let order = if 1 < jobs && jobs < open { largest_first(job, chosen, &known) } else { chosen.to_vec() };
     let work = || {
         while let Some(index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
             let line = one((job, &settings), &known[*index], *index, &cancel, progress, &failed);

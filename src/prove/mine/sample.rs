@@ -43,11 +43,14 @@ const NEAR: usize = 12;
 /// What is known of runs: how to draw their inputs, and some that led somewhere.
 pub(super) type Runs<'a> = (&'a Inputs, &'a [Trace]);
 
+/// Bytes for what is recorded, so that it seldom depends on the memory that others leave.
+const ROOM: usize = 256 << 20;
+
 /// Runs whose words are kept.
 const LANES: u32 = 8;
 
 impl Samples {
-    /// Of random runs, and of runs like `traces`, as many as fit into a quarter of the budget's memory.
+    /// Of random runs, and of runs like `traces`, as many as fit into the room, and into a quarter of the budget's memory.
     ///
     /// # Errors
     /// If the budget ends before.
@@ -60,7 +63,7 @@ impl Samples {
         let mut samples = Self {
             nodes: vec![Vec::new(); wanted.nodes.len()],
             valid: Vec::new(),
-            room: budget.memory / 4,
+            room: ROOM.min(budget.memory / 4),
             words: vec![Vec::new(); wanted.words.len()],
             guards: vec![Vec::new(); wanted.guards.len()],
         };

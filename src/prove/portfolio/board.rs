@@ -281,9 +281,9 @@ impl State {
             Came::Ended { safe } => self.safe = self.safe.max(safe),
             Came::Mined { problem, is_richer, runs } => {
                 self.mined = Some((index, runs));
-                self.seat(Name::InductionWithFacts, Place::Free(Box::new(Lane::induction(&problem))));
                 let ic3 = if is_richer { Place::Free(Box::new(Lane::ic3(&problem))) } else { Place::Over };
-                self.seat(Name::Ic3WithFacts, ic3);
+                self.places[Name::InductionWithFacts as usize] = Place::Free(Box::new(Lane::induction(&problem)));
+                self.places[Name::Ic3WithFacts as usize] = ic3;
             }
             Came::Settled(outcome) if self.best.as_ref().is_none_or(|(best, _)| index < *best) => {
                 self.best = Some((index, outcome));
@@ -291,9 +291,5 @@ impl State {
             }
             Came::Settled(_) => {}
         }
-    }
-
-    fn seat(&mut self, name: Name, place: Place) {
-        self.places[name as usize] = place;
     }
 }

@@ -19,14 +19,14 @@ use board::Board;
 #[derive(Clone, Debug)]
 pub struct Options {
     /// How many threads, at most two of which are of use.
-    pub jobs: usize,
+    pub threads: usize,
     /// What is known of the model.
     pub hints: Hints,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { jobs: 1, hints: Hints::default() }
+        Self { threads: 1, hints: Hints::default() }
     }
 }
 
@@ -53,7 +53,7 @@ pub fn decide(model: &Model, property: usize, options: &Options, budget: &Budget
     let reduced = Reduced::new(model, property, &budget.stop());
     let problem = reduced.problem();
     let hints = Hints { words: reduced.words(model, &options.hints.words) };
-    let outcome = Board::new(problem, &hints, (budget, listener), options.jobs.clamp(1, 2)).settle();
+    let outcome = Board::new(problem, &hints, (budget, listener), options.threads.clamp(1, 2)).settle();
     let outcome = shortened(outcome, &reduced, budget, listener);
     let runs = outcome.runs.iter().map(|run| reduced.trace(run)).collect();
     let answer = match reduced.lift(model, outcome.answer) {
@@ -85,7 +85,7 @@ impl Engine for Portfolio {
 
     fn run(&self, model: &Model, property: usize, budget: &Budget, progress: &dyn Fn(Progress)) -> Answer {
         progress(Progress { engine: "portfolio", depth: 0, clauses: 0 });
-        let options = Options { jobs: 1, hints: self.hints.clone() };
+        let options = Options { threads: 1, hints: self.hints.clone() };
         decide(model, property, &options, budget, &|_| ()).answer
     }
 }

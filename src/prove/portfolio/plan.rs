@@ -46,7 +46,7 @@ const OPENING: [Turn; 9] = [
     of(Name::Induction, 4 * FIRST),
     of(Name::Ic3, 2 * FIRST),
     of(Name::Interpolation, 2 * FIRST),
-    of(Name::Induction, 5 * FIRST),
+    of(Name::Induction, 8 * FIRST),
     of(Name::Ic3, 4 * FIRST),
     of(Name::Interpolation, 4 * FIRST),
 ];
@@ -86,5 +86,41 @@ impl Plan {
         let name = self.turn(index).name;
         let later = self.opening.get(index + 1..).unwrap_or(&[]);
         ROUND.contains(&name) || later.iter().any(|turn| turn.name == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_behind_the_opening_grow_and_nobody_waits_for_ever() {
+        for nodes in [0, LARGE] {
+            let plan = Plan::new(nodes);
+            let turns: Vec<Turn> = (0..60).map(|index| plan.turn(index)).collect();
+            let mining = turns.iter().position(|turn| turn.name == Name::Mine).expect("mining has a turn");
+            assert_eq!(turns.iter().filter(|turn| turn.name == Name::Mine).count(), 1);
+            let facts = [Name::InductionWithFacts, Name::Ic3WithFacts];
+            assert!(turns[..mining].iter().all(|turn| !facts.contains(&turn.name)), "there are no facts yet");
+            for name in ROUND {
+                let own: Vec<u64> =
+                    turns[plan.opening.len()..].iter().filter(|turn| turn.name == name).map(|turn| turn.work).collect();
+                assert!(own.len() > 5 && own.windows(2).all(|pair| pair[0] < pair[1]), "{name:?} {own:?}");
+            }
+        }
+        assert_eq!(Plan::new(LARGE).opening.len(), Plan::new(LARGE - 1).opening.len() + 1);
+    }
+
+    #[test]
+    fn who_has_no_later_turn_is_told() {
+        let plan = Plan::new(0);
+        let last = (0..60).rev().find(|&index| plan.turn(index).name == Name::Induction).expect("it has turns");
+        assert!(!plan.comes_again(last) && plan.comes_again(0));
+        assert!((0..60).filter(|&index| ROUND.contains(&plan.turn(index).name)).all(|index| plan.comes_again(index)));
+    }
+
+    #[test]
+    fn work_of_late_turns_does_not_overflow() {
+        assert_eq!(Plan::new(0).turn(1_000).work, u64::MAX);
     }
 }

@@ -98,8 +98,8 @@ fn the_portfolio_agrees() {
 }
 
 /// The portfolio's answer on a system of a family, with the words known.
-fn decide(system: &Builder, jobs: usize) -> Answer {
-    let options = Options { jobs, hints: Hints { words: system.words.clone() } };
+fn decide(system: &Builder, threads: usize) -> Answer {
+    let options = Options { threads, hints: Hints { words: system.words.clone() } };
     portfolio::decide(&system.model, 0, &options, &Budget::seconds(60.0), &|_| ()).answer
 }
 
@@ -171,8 +171,8 @@ fn one_thread_and_two_give_the_same_evidence() {
     }
     for seed in 0..cases(300) {
         let model = random::model(seed, 8);
-        let outcome = |jobs| {
-            let options = Options { jobs, hints: Hints::default() };
+        let outcome = |threads| {
+            let options = Options { threads, hints: Hints::default() };
             portfolio::decide(&model, 0, &options, &Budget::seconds(60.0), &|_| ())
         };
         assert_eq!(outcome(1), outcome(2), "seed {seed}");
@@ -182,9 +182,9 @@ fn one_thread_and_two_give_the_same_evidence() {
 #[test]
 fn a_hopeless_model_ends_in_time() {
     let system = families::product(14);
-    for jobs in [1, 2] {
+    for threads in [1, 2] {
         let start = std::time::Instant::now();
-        let options = Options { jobs, hints: Hints::default() };
+        let options = Options { threads, hints: Hints::default() };
         let outcome = portfolio::decide(&system.model, 0, &options, &Budget::seconds(2.0), &|_| ());
         assert!(matches!(outcome.answer, Answer::Bounded { .. } | Answer::GaveUp(_)), "{outcome:?}");
         assert!(start.elapsed().as_secs_f64() < 3.5, "{:?}", start.elapsed());
