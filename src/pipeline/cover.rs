@@ -2,8 +2,7 @@
 //! that something is never reached again, and puts names to it.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::Project;
 use super::ready::Ready;
@@ -42,7 +41,7 @@ pub(super) fn cover(
     project: &Project,
     table: &Table,
     ready: &Ready,
-    known: &Known<'_>,
+    known: Known<'_>,
     cancel: &Cancel,
 ) -> Result<(Coverage, Vec<Choice>), String> {
     let counted = counted(project, ready.program.unit);
@@ -95,7 +94,7 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Asks, and confirms the answer. The targets are the rows, then the probes.
-    fn search(&mut self, known: &Known<'_>, cancel: &Cancel) -> Result<Reached, String> {
+    fn search(&mut self, known: Known<'_>, cancel: &Cancel) -> Result<Reached, String> {
         let ready = self.ready;
         let options = translate::Options { loop_limit: ready.loop_limit, ..translate::Options::default() };
         let translated = translate::translate(&self.probed.program, &options)
@@ -117,8 +116,7 @@ impl Work<'_> {
         let probes = self.probed.slots().map(|slot| translated.end[slot.0 as usize]);
         let invariant = known.invariant.and_then(|proof| proof.moved(ready.system(), &system));
         let targets = rows.into_iter().chain(probes).map(|target| system.pool.and(target, covered)).collect();
-        let mut question =
-            Question { system, covered, targets, globals: made.globals, known: known.runs.clone(), invariant };
+        let mut question = Question { system, covered, targets, globals: made.globals, known: known.runs, invariant };
         self.inputs = made.inputs;
         let found = reach(&question, &Effort::default(), cancel);
         match self.confirm(&question, &found, known.patience) {
@@ -156,9 +154,7 @@ impl Work<'_> {
             }
         }
         for (proof, targets) in proofs {
-            let start = Instant::now();
-            let stop: invariant::Stop = Arc::new(move || start.elapsed() >= patience);
-            invariant::check(&never(question, &targets), proof, &stop).map_err(|rejection| {
+            invariant::check(&never(question, &targets), proof, &invariant::within(patience)).map_err(|rejection| {
                 let text = format!(
                     "the proof that something is never reached was rejected: {rejection:?} (targets {targets:?})"
                 );

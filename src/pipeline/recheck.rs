@@ -3,14 +3,13 @@
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{Asked, Project, artefact, ready};
 use crate::config::{ConfigFile, Settings};
 use crate::evidence::record::{Artefact, ArtefactKind, Claim, Record};
 use crate::machine::elaborate::Stub;
-use crate::recheck::invariant::{self, Stop};
+use crate::recheck::invariant;
 use crate::recheck::replay::{End, Environment};
 use crate::semantics::fixed::Reading;
 use crate::source::Memory;
@@ -119,9 +118,7 @@ fn certificate(project: &Project, table: usize, artefact: &Artefact) -> Result<(
     let ready = ready::ready(project, table)?;
     let system = ready.system();
     let certificate = artefact::read_certificate(system, &artefact.value)?;
-    let deadline = Instant::now() + LIMIT;
-    let stop: Stop = Arc::new(move || Instant::now() >= deadline);
-    invariant::check(system, &certificate, &stop)
+    invariant::check(system, &certificate, &invariant::within(LIMIT))
         .map_err(|rejection| format!("the certificate is rejected: {rejection:?}"))
 }
 

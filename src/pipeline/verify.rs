@@ -16,7 +16,7 @@ use crate::prove::decide::{Choice, Decision, decide};
 use crate::prove::engine::{self, Cancel, Progress};
 use crate::prove::strict::repeated_from;
 use crate::prove::verdict::{FailedRow, Loss, Run, Verdict};
-use crate::recheck::invariant::{self, Rejection, Stop};
+use crate::recheck::invariant::{self, Rejection};
 use crate::recheck::replay::{End, Environment, Replay};
 use crate::table::AttachedTable;
 use crate::table::bind::BoundTable;
@@ -107,7 +107,7 @@ pub fn verify(
                 // That of strict conformance is about another system.
                 let known =
                     Known { runs, invariant: ready.strict.is_none().then_some(proof), patience: patience(settings) };
-                match covered(project, attached, &ready, &known, (settings, cancel)) {
+                match covered(project, attached, &ready, known, (settings, cancel)) {
                     Ok(coverage) => made.coverage = Some(coverage),
                     Err(error) => made.internal = Some(error),
                 }
@@ -126,7 +126,7 @@ fn covered(
     project: &Project,
     attached: &AttachedTable,
     ready: &Ready,
-    known: &Known<'_>,
+    known: Known<'_>,
     (settings, cancel): (&Settings, &Cancel),
 ) -> Result<Coverage, String> {
     let (mut coverage, runs) = cover::cover(project, &attached.table, ready, known, cancel)?;
@@ -166,9 +166,7 @@ fn patience(settings: &Settings) -> Duration {
 /// Checks a certificate by the room that shares nothing with the engines.
 fn confirm_certificate(ready: &Ready, settings: &Settings, made: &mut Verified) {
     let Verdict::Verified(certificate) = &made.verdict else { return };
-    let deadline = Instant::now() + patience(settings);
-    let stop: Stop = Arc::new(move || Instant::now() >= deadline);
-    if let Err(rejection) = invariant::check(ready.system(), certificate, &stop) {
+    if let Err(rejection) = invariant::check(ready.system(), certificate, &invariant::within(patience(settings))) {
         made.internal = Some(match rejection {
             Rejection::OutOfTime => "the certificate could not be checked again in time".to_owned(),
             other => {

@@ -83,6 +83,14 @@ impl Unrolled {
         self.solver.add_clause(&clause);
     }
 
+    /// Lets the constraints of the model hold in the cycle.
+    pub(crate) fn constrain(&mut self, model: &Model, cycle: usize) {
+        for &constraint in &model.constraints {
+            let holds = self.graph.at(constraint, cycle);
+            self.require(&[holds]);
+        }
+    }
+
     /// Whether `lit` can be true, asked with more and more work until `ticks` are gone.
     pub(crate) fn ask(&mut self, lit: Lit, ticks: &mut u64, budget: &Budget) -> Reply {
         let assumption = self.encoder.encode(&self.graph.aig, lit, &mut self.solver);
@@ -148,10 +156,7 @@ impl Search for BmcSearch {
             if let Some(reason) = budget.exhausted_with(self.unrolled.bytes()) {
                 return Some(bounded(self.depth, reason));
             }
-            for index in 0..self.problem.model.constraints.len() {
-                let holds = self.unrolled.graph.at(self.problem.model.constraints[index], self.depth);
-                self.unrolled.require(&[holds]);
-            }
+            self.unrolled.constrain(&self.problem.model, self.depth);
             let bad = self.unrolled.graph.at(self.problem.bad, self.depth);
             left = left.saturating_sub(Price::FEW.question / 10);
             if bad != Lit::FALSE {

@@ -31,6 +31,15 @@ pub struct Choice {
     pub inputs: Vec<Vec<u64>>,
 }
 
+impl Choice {
+    /// What a run of the blasted product chooses.
+    pub(super) fn of(product: &Product, blasted: &Blasted, trace: &Trace) -> Self {
+        let stimulus = blasted.stimulus(trace);
+        let globals = product.globals.iter().map(|state| stimulus.free[*state]).collect();
+        Self { globals, inputs: stimulus.inputs }
+    }
+}
+
 /// A decision and who made it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Decided {
@@ -65,11 +74,7 @@ pub fn decide(
         Answer::Bounded { reason, .. } | Answer::GaveUp(reason) => Some(reason),
         Answer::Proved(_) | Answer::Violated(_) => None,
     };
-    let chosen = |trace: &Trace| {
-        let stimulus = blasted.stimulus(trace);
-        let globals = product.globals.iter().map(|state| stimulus.free[*state]).collect();
-        Choice { globals, inputs: stimulus.inputs }
-    };
+    let chosen = |trace: &Trace| Choice::of(product, &blasted, trace);
     let decision = match outcome.answer {
         Answer::Proved(proof) => Decision::Proved(certificate(&blasted, proof)),
         Answer::Violated(trace) => Decision::Violated(chosen(&trace)),

@@ -178,10 +178,7 @@ impl<'m> Search<'m> {
 
     fn constrain(&mut self, depth: usize) {
         while self.constrained <= depth {
-            for &constraint in &self.model.constraints {
-                let holds = self.unrolled.graph.at(constraint, self.constrained);
-                self.unrolled.require(&[holds]);
-            }
+            self.unrolled.constrain(self.model, self.constrained);
             self.constrained += 1;
         }
     }

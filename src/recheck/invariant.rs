@@ -1,5 +1,8 @@
 //! Checks a [`Certificate`] against its [`System`] by propositional queries, each in a solver of its own.
 
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
 use super::cases;
 use super::cnf::{self, Words};
 use super::gates::{Gates, Word};
@@ -8,7 +11,14 @@ use crate::logic::system::System;
 use batsat::Lit;
 
 /// Says when to give up.
-pub type Stop = std::sync::Arc<dyn Fn() -> bool + Send + Sync>;
+pub type Stop = Arc<dyn Fn() -> bool + Send + Sync>;
+
+/// Gives up after so long, counted from now.
+#[must_use]
+pub fn within(patience: Duration) -> Stop {
+    let start = Instant::now();
+    Arc::new(move || start.elapsed() >= patience)
+}
 
 /// Why a certificate is not believed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

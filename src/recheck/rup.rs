@@ -5,7 +5,8 @@
 //! unsatisfiability for CNF formulas", DATE 2003), and their list, with deletions, is a DRUP proof, the part of DRAT that such
 //! solvers need (Wetzler, Heule and Hunt, "DRAT-trim", SAT 2014). It is checked while the solver makes it, so that it is stored
 //! nowhere. Left out: clauses that only preserve satisfiability (RAT), which this solver does not learn, and the check
-//! backwards, which could leave out clauses that the conclusion does not need.
+//! backwards, which could leave out clauses that the conclusion does not need. It propagates as the engines' solver does, and
+//! shares nothing with it: this room believes none of them.
 
 use std::collections::HashMap;
 

@@ -36,7 +36,7 @@ impl Frontier {
     }
 
     pub(super) fn is_done(&self) -> bool {
-        self.open().is_empty()
+        !self.places.iter().any(|place| matches!(place, Place::Open))
     }
 
     /// No run is ever there.

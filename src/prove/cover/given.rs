@@ -16,10 +16,7 @@ pub(super) fn exclude(
 ) {
     let model = &blasted.model;
     let mut states = Unrolled::new(model, false);
-    for constraint in &model.constraints {
-        let holds = states.graph.at(*constraint, 0);
-        states.require(&[holds]);
-    }
+    states.constrain(model, 0);
     if require(&mut states, blasted, invariant).is_none() {
         return;
     }

@@ -42,7 +42,7 @@ pub struct Question {
 pub struct Effort {
     /// Evaluations of a gate in random runs, 64 runs at once: from the beginning, and as many from where known runs lead.
     pub simulation: u64,
-    /// Work of bounded model checking.
+    /// Work of bounded model checking, and of asking what the invariant excludes.
     pub search: u64,
     /// Work of all proofs that something is never reached.
     pub proof: u64,

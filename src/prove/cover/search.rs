@@ -80,10 +80,7 @@ fn unrolled(
     let mut unrolled = Unrolled::new(model, true);
     let mut left = effort.search;
     for depth in 0..effort.depth {
-        for constraint in &model.constraints {
-            let holds = unrolled.graph.at(*constraint, depth);
-            unrolled.require(&[holds]);
-        }
+        unrolled.constrain(model, depth);
         loop {
             let open = frontier.open();
             if open.is_empty() || left == 0 || budget.exhausted_with(unrolled.bytes()).is_some() {

@@ -63,11 +63,7 @@ pub fn trial(product: &Product, original: &Seen, cancel: &Cancel) -> Trial {
     }
     match answer.map(|answer| reduced.lift(&blasted.model, answer)) {
         Some(Answer::Proved(_)) => Trial::Conforms,
-        Some(Answer::Violated(trace)) => {
-            let stimulus = blasted.stimulus(&trace);
-            let globals = product.globals.iter().map(|state| stimulus.free[*state]).collect();
-            Trial::Violated(Choice { globals, inputs: stimulus.inputs })
-        }
+        Some(Answer::Violated(trace)) => Trial::Violated(Choice::of(product, &blasted, &trace)),
         Some(Answer::Bounded { depth: further, .. }) => Trial::Bounded(depth.max(further)),
         Some(Answer::GaveUp(_)) | None => Trial::Bounded(depth),
     }
